@@ -1,0 +1,34 @@
+/* Where the sun stands. */
+#ifndef STAFFAGE_GEN_SUN_H
+#define STAFFAGE_GEN_SUN_H
+
+#include "lib/error.h"
+#include "lib/vec.h"
+
+#include <stdbool.h>
+
+/* A moment, UTC. second may have a fraction, and 60 in a leap second. */
+struct utc_time { int year, month, day, hour, minute; double second; };
+
+/* Parse ISO 8601 with an offset ("2021-05-01T14:53:40Z", "...T10:53:40.5-04:00") to UTC.
+ * Returns NULL, or what is wrong and what would be right (a static string). */
+const char *utc_time_parse(struct utc_time *utc, const char *text);
+
+struct geodetic { double latitude_rad, longitude_rad, height_m; }; /* WGS 84, ellipsoidal height */
+
+/* Pressure 0 leaves refraction out. */
+struct atmosphere { double pressure_hpa, temperature_c; };
+
+struct sun_position {
+    double azimuth_rad;   /* clockwise from north, [0, 2 pi) */
+    double elevation_rad; /* topocentric, refracted when there is an atmosphere */
+    struct vec3 direction;/* unit, ENU, towards the sun's centre */
+};
+
+/* Topocentric sun by ERFA (apparent place, parallax, polar motion left out, UT1 = UTC + dut1_s).
+ * Err: ERR_INPUT: a year that ERFA's leap second table cannot serve
+ * Src: IAU SOFA/ERFA eraEpv00, eraAtci13-chain; see sun.c */
+bool sun_position(struct sun_position *sun, struct utc_time utc, double dut1_s, struct geodetic place,
+                  struct atmosphere air, struct error *err);
+
+#endif

@@ -1,0 +1,24 @@
+/* What an entity is: names, ids and colours of the classes. */
+#ifndef STAFFAGE_LIB_CLASS_H
+#define STAFFAGE_LIB_CLASS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum entity_class {
+    CLASS_PERSON, CLASS_RIDER, CLASS_CAR, CLASS_VAN, CLASS_TRUCK, CLASS_BUS, CLASS_TRAIN,
+    CLASS_MOTORCYCLE, CLASS_BICYCLE, CLASS_AMBULANCE, CLASS_FIRE_TRUCK, CLASS_CONSTRUCTION, CLASS_ANIMAL,
+    CLASS_OTHER, CLASS_COUNT
+};
+
+struct class_info {
+    const char *name;      /* in scene files and labels: "car" */
+    uint8_t semantic_id;   /* in semantic_id/: the Cityscapes labelId of the nearest class */
+    uint8_t color[3];      /* in semantic/: sRGB */
+    bool is_person;        /* the papers' thresholds and masks tell people from vehicles */
+};
+
+const struct class_info *class_info(enum entity_class c);
+bool class_from_name(enum entity_class *c, const char *name);
+
+#endif

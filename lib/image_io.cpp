@@ -1,0 +1,156 @@
+#include "lib/opencv.h"
+
+extern "C" {
+#include "lib/file.h"
+}
+
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+#include <string>
+#include <unistd.h>
+
+using staffage::guarded;
+using staffage::mat_over;
+
+namespace {
+
+/* OpenCV asks for this before its first EXR file, and prints what we report ourselves. */
+void prepare()
+{
+    setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+}
+
+bool image_from_mat(struct image *image, const cv::Mat &mat, const char *path, struct error *err)
+{
+    enum pixel_type type;
+    switch (mat.depth()) {
+    case CV_8U: type = PIXEL_U8; break;
+    case CV_16U: type = PIXEL_U16; break;
+    case CV_32F: type = PIXEL_F32; break;
+    default: return error_at(err, ERR_INPUT, path, 0, 0, "has pixels that are neither 8 bit, 16 bit nor float");
+    }
+    if (mat.channels() == 2) return error_at(err, ERR_INPUT, path, 0, 0, "has 2 channels: 1, 3 or 4 would be right");
+    if (!image_init(image, mat.cols, mat.rows, mat.channels(), type, err)) return false;
+    cv::Mat out = mat_over(image);
+    if (mat.channels() == 3) cv::cvtColor(mat, out, cv::COLOR_BGR2RGB);
+    else if (mat.channels() == 4) cv::cvtColor(mat, out, cv::COLOR_BGRA2RGBA);
+    else mat.copyTo(out);
+    return true;
+}
+
+/* libjpeg fills a truncated JPEG with grey and says nothing: its end marker tells. */
+bool ends_early(const char *path)
+{
+    FILE *f = fopen(path, "rb");
+    if (!f) return false;
+    unsigned char head[2] = { 0, 0 }, tail[64];
+    bool jpeg = fread(head, 1, 2, f) == 2 && head[0] == 0xff && head[1] == 0xd8;
+    bool found = false;
+    if (jpeg) {
+        fseek(f, 0, SEEK_END);
+        long size = ftell(f), from = size > (long)sizeof tail ? size - (long)sizeof tail : 0;
+        fseek(f, from, SEEK_SET);
+        size_t n = fread(tail, 1, sizeof tail, f);
+        for (size_t i = 0; i + 1 < n; i++) found |= tail[i] == 0xff && tail[i + 1] == 0xd9;
+    }
+    fclose(f);
+    return jpeg && !found;
+}
+
+} // namespace
+
+bool image_read(struct image *image, const char *path, struct error *err)
+{
+    return guarded(err, ERR_INPUT, [&] {
+        prepare();
+        if (!file_exists(path)) return error_at(err, ERR_INPUT, path, 0, 0, "does not exist");
+        cv::Mat mat = cv::imread(path, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
+        if (mat.empty()) return error_at(err, ERR_INPUT, path, 0, 0, "is not an image that can be read (PNG, JPEG, TIFF or EXR), or is truncated");
+        if (ends_early(path)) return error_at(err, ERR_INPUT, path, 0, 0, "is truncated: the JPEG has no end marker");
+        return image_from_mat(image, mat, path, err);
+    });
+}
+
+bool image_read_size(int *width_px, int *height_px, const char *path, struct error *err)
+{
+    struct image image;
+    if (!image_read(&image, path, err)) return false;
+    *width_px = image.width_px;
+    *height_px = image.height_px;
+    image_release(&image);
+    return true;
+}
+
+bool image_write(const char *path, const struct image *image, struct error *err)
+{
+    return guarded(err, ERR_IO, [&] {
+        prepare();
+        cv::Mat in = mat_over(image), bgr;
+        if (image->channels == 3) cv::cvtColor(in, bgr, cv::COLOR_RGB2BGR);
+        else if (image->channels == 4) cv::cvtColor(in, bgr, cv::COLOR_RGBA2BGRA);
+        else bgr = in;
+        const char *dot = strrchr(path, '.');
+        std::string temporary = std::string(path) + "." + std::to_string((long)getpid()) + ".tmp" + (dot ? dot : "");
+        std::vector<int> options;
+        if (image->type == PIXEL_F32) options = { cv::IMWRITE_EXR_TYPE, cv::IMWRITE_EXR_TYPE_FLOAT };
+        else if (dot && !strcmp(dot, ".jpg")) options = { cv::IMWRITE_JPEG_QUALITY, 95 };
+        else options = { cv::IMWRITE_PNG_COMPRESSION, 2 };
+        if (!cv::imwrite(temporary, bgr, options)) {
+            unlink(temporary.c_str());
+            return error_at(err, ERR_IO, path, 0, 0, "cannot be written");
+        }
+        return file_commit(temporary.c_str(), path, err);
+    });
+}
+
+bool image_resize(struct image *out, const struct image *in, int width_px, int height_px, struct error *err)
+{
+    return guarded(err, ERR_BUG, [&] {
+        if (!image_init(out, width_px, height_px, in->channels, in->type, err)) return false;
+        cv::Mat to = mat_over(out);
+        cv::resize(mat_over(in), to, to.size(), 0, 0, width_px < in->width_px ? cv::INTER_AREA : cv::INTER_CUBIC);
+        return true;
+    });
+}
+
+bool video_info(int *width_px, int *height_px, int *frames, const char *video, struct error *err)
+{
+    return guarded(err, ERR_INPUT, [&] {
+        prepare();
+        cv::VideoCapture capture(video, cv::CAP_FFMPEG);
+        if (!capture.isOpened()) return error_at(err, ERR_INPUT, video, 0, 0, "is not a video that can be read");
+        *width_px = (int)capture.get(cv::CAP_PROP_FRAME_WIDTH);
+        *height_px = (int)capture.get(cv::CAP_PROP_FRAME_HEIGHT);
+        *frames = (int)capture.get(cv::CAP_PROP_FRAME_COUNT);
+        return true;
+    });
+}
+
+bool video_extract(const char *video, const int *frames, const char *const *paths, size_t n, struct error *err)
+{
+    return guarded(err, ERR_INPUT, [&] {
+        prepare();
+        cv::VideoCapture capture(video, cv::CAP_FFMPEG);
+        if (!capture.isOpened()) return error_at(err, ERR_INPUT, video, 0, 0, "is not a video that can be read");
+        int at = -1; /* seeking in a video is not exact with every codec: it is decoded in order */
+        cv::Mat mat;
+        for (size_t i = 0; i < n; i++) {
+            for (; at < frames[i]; at++)
+                if (!capture.grab())
+                    return error_at(err, ERR_INPUT, video, 0, 0, "ends before frame %d: it has %d frames", frames[i], at + 1);
+            struct image image;
+            if (!capture.retrieve(mat)) return error_at(err, ERR_INPUT, video, 0, 0, "frame %d cannot be decoded", frames[i]);
+            if (!image_from_mat(&image, mat, video, err)) return false;
+            bool ok = image_write(paths[i], &image, err);
+            image_release(&image);
+            if (!ok) return false;
+        }
+        return true;
+    });
+}

@@ -1,0 +1,47 @@
+/* The frame manifest, frames/NNNNNN/frame.json: all that post needs to know of a frame,
+ * written by gen as the last file of a frame. Paths are relative to the output folder. */
+#ifndef STAFFAGE_LIB_MANIFEST_H
+#define STAFFAGE_LIB_MANIFEST_H
+
+#include "lib/camera.h"
+#include "lib/class.h"
+#include "lib/error.h"
+#include "lib/view.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define MANIFEST_VERSION 1
+
+struct manifest_entity { uint16_t id; char name[128]; enum entity_class class_; };
+
+struct manifest {
+    char frame[16];             /* "000123" */
+    char photograph[1024];      /* absolute, or relative to the output folder */
+    int width_px, height_px;    /* of the result; the photograph is scaled to it */
+    char key[17];               /* hash of all that the frame depends on, 16 hex digits */
+    struct camera camera;
+    struct pose world_from_camera;
+    bool empty;                 /* nothing changes in this frame: no passes were written */
+    struct view view;           /* of all three passes */
+    bool exposure_given;
+    double exposure;            /* used when given */
+    struct rect exposure_patch_px; /* else fitted here */
+    bool white_balance;
+    double ground_radiance[3];  /* of unshadowed ground in the passes' units */
+    char transfer[16];          /* layers, ratio, threshold, alpha */
+    double t1, t2, t3;          /* 0..255 */
+    bool overwrite_below;
+    bool mask_dilated;
+    bool has_occluders;         /* visible.png and receiver.png are there */
+    struct manifest_entity *entities;
+    size_t entity_count;
+};
+
+bool manifest_write(const char *path, const struct manifest *manifest, struct error *err);
+/* Err: ERR_INPUT at the path for a file that is not one of ours, or of another version */
+bool manifest_read(struct manifest *manifest, const char *path, struct error *err);
+void manifest_release(struct manifest *manifest);
+
+#endif

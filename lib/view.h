@@ -1,0 +1,32 @@
+/* The pinhole view that POV-Ray renders for a part of a photograph.
+ *
+ * A view shares the camera's centre. For an undistorted camera it is a window
+ * of the photograph itself, pixel on pixel; for a lens it is a pinhole image,
+ * turned towards the part and at least as fine as the photograph there, that
+ * post resamples into the photograph's pixels. */
+#ifndef STAFFAGE_LIB_VIEW_H
+#define STAFFAGE_LIB_VIEW_H
+
+#include "lib/camera.h"
+
+/* Half-open pixel rectangle [x0, x1) x [y0, y1). */
+struct rect { int x0, y0, x1, y1; };
+
+struct view {
+    int width_px, height_px;
+    double fx_px, fy_px, cx_px, cy_px;  /* principal point may lie far outside */
+    struct mat3 view_from_camera;       /* rotation; identity for an undistorted camera */
+    struct rect window_px;              /* the part of the photograph that the view covers */
+    bool aligned;                       /* pixel (i,j) of the view is photograph pixel (x0+i, y0+j) */
+};
+
+/* The view that covers `window_px` of the photograph.
+ * Err: ERR_INPUT when the window spans more than 150 deg, or the lens is not invertible in it */
+bool view_cover(struct view *view, const struct camera *camera, struct rect window_px, struct error *err);
+
+/* Photograph position -> view position (both continuous pixels). For aligned views a shift.
+ * Err: ERR_NOT_INVERTIBLE as camera_unproject; ERR_BEHIND_CAMERA when outside the view's half space */
+bool view_from_photograph(const struct view *view, const struct camera *camera, struct vec2 *v_px,
+                          struct vec2 q_px, struct error *err);
+
+#endif

@@ -1,0 +1,14 @@
+TEST_LOG_DRIVER = env AM_TAP_AWK='$(AWK)' $(SHELL) $(top_srcdir)/build-aux/tap-driver.sh
+SH_LOG_DRIVER = $(TEST_LOG_DRIVER)
+LOG_DRIVER = $(TEST_LOG_DRIVER)
+TEST_EXTENSIONS = .sh
+AM_TESTS_ENVIRONMENT = top_srcdir='$(abs_top_srcdir)' top_builddir='$(abs_top_builddir)'; export top_srcdir top_builddir;
+EXTRA_DIST += %D%/tap.h
+
+# Unit tests, one program a module. Each links C++ through the shims.
+check_PROGRAMS += tests/lib/vec.test
+tests_lib_vec_test_SOURCES = %D%/lib/vec.c %D%/tap.h
+nodist_EXTRA_tests_lib_vec_test_SOURCES = dummy.cxx
+tests_lib_vec_test_LDADD = $(LIB_LIBS)
+
+TESTS += $(check_PROGRAMS) $(dist_check_SCRIPTS)
