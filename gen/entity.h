@@ -22,7 +22,8 @@ struct entity {
 };
 
 /* Stand upright on the ground: z along the plane's normal, x turned to the heading
- * (radians clockwise from north = +y, measured in the horizontal, projected onto the plane). */
+ * (radians clockwise from north = +y, measured in the horizontal, projected onto the plane).
+ * at_m is moved straight up or down onto the plane: its z does not matter. */
 struct pose entity_stand(const struct plane *ground, struct vec3 at_m, double heading_rad);
 
 /* Do the oriented boxes of two entities intersect by more than tolerance_m? (Separating axes.)
