@@ -1,5 +1,8 @@
 /* A scene: what the user's YAML file says, checked, in our units. docs/scene.md
- * describes every key; the schema table in scene.c is what that page is tested against. */
+ * describes every key; the table in scene_keys.c is what that page is tested against.
+ *
+ * Every pixel position in a scene is in pixels of `camera`, as the file gives it: a photograph of
+ * another size, or a reduced one, has them scaled with the camera. */
 #ifndef STAFFAGE_GEN_SCENE_H
 #define STAFFAGE_GEN_SCENE_H
 
@@ -40,7 +43,7 @@ struct scene_entity {
     double heading_rad;
     bool has_color;
     double color[3];           /* linear */
-    struct source source;
+    struct source source, at_source;
 };
 
 /* Something in the photograph that hides what passes behind it. */
@@ -53,6 +56,7 @@ struct scene_occluder {
 };
 
 enum sky_kind { SKY_CLEAR, SKY_OVERCAST };
+enum sun_kind { SUN_NONE, SUN_BY_TIME, SUN_GIVEN };
 enum transfer_kind { TRANSFER_LAYERS, TRANSFER_RATIO, TRANSFER_THRESHOLD, TRANSFER_ALPHA };
 enum overwrite_side { OVERWRITE_ABOVE, OVERWRITE_BELOW };
 enum mask_rule { MASK_TRACED, MASK_DILATED };
@@ -72,14 +76,16 @@ struct scene {
 
     struct camera camera;      /* at the size that it was given for */
     struct pose world_from_camera;
+    struct source camera_source;
 
     bool has_place;
     struct geodetic place;
     bool has_time;
     struct utc_time time_utc;
-    double north_rad;          /* without place: azimuth of the +y axis, clockwise from true north */
-    bool has_sun;              /* sun given by hand: azimuth from north, elevation */
-    double sun_azimuth_rad, sun_elevation_rad;
+    double north_rad;          /* azimuth of the world's +y axis, clockwise from true north */
+    enum sun_kind sun;         /* BY_TIME: place and time are there; NONE under an overcast sky */
+    double sun_azimuth_rad, sun_elevation_rad; /* GIVEN: azimuth clockwise from true north */
+    struct source sun_source;
 
     struct plane ground;
     double ground_albedo[3];   /* linear */
@@ -91,7 +97,8 @@ struct scene {
 
     bool exposure_given;
     double exposure;           /* photograph linear value per radiance unit */
-    struct vec2 exposure_patch_px[2]; /* corners: top left, bottom right */
+    struct vec2 exposure_patch_px[2]; /* corners: top left, bottom right; inside the camera's picture */
+    struct source exposure_source;
     bool white_balance;        /* fit each channel, not luminance only */
 
     struct scene_model *models;
