@@ -43,7 +43,8 @@ struct camera_intrinsics { double fx_px, fy_px, cx_px, cy_px; };
 struct camera_intrinsics camera_intrinsics(const struct camera *camera);
 /* True when straight lines stay straight: no distortion parameter is other than 0. */
 bool camera_is_pinhole(const struct camera *camera);
-/* The same lens on a sensor sampled at another size (same aspect within 1 px). */
+/* The same lens on a sensor sampled at another size. A model of one focal length
+ * becomes its superset of two where the aspect changes (1001x751 to 500x375). */
 struct camera camera_scaled(const struct camera *camera, int width_px, int height_px);
 
 /* Project a point in camera coordinates.

@@ -9,5 +9,6 @@ lib_libstaffage_a_SOURCES = \
   %D%/opencv.h \
   %D%/rle.c %D%/rle.h \
   %D%/vec.c %D%/vec.h \
-  %D%/camera.h %D%/view.h %D%/manifest.h
+  %D%/camera.c %D%/camera.h \
+  %D%/view.h %D%/manifest.h
 LIB_LIBS = lib/libstaffage.a $(OPENCV_LIBS) $(JANSSON_LIBS) -lm
