@@ -3,7 +3,9 @@
 #ifndef STAFFAGE_GEN_MATERIAL_H
 #define STAFFAGE_GEN_MATERIAL_H
 
+#include "lib/class.h"
 #include "lib/error.h"
+#include "lib/image.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -27,7 +29,7 @@ struct material {
     enum finish_kind kind;
     double base_color[3];       /* linear, 0..1; multiplies the texture */
     double alpha;               /* 0..1; used by BLEND and MASK */
-    char *base_texture;         /* path of an sRGB image file, or NULL; owned */
+    struct image base_image;    /* sRGB, U8, 3 channels or 4 (straight alpha); empty without texture; owned */
     enum alpha_mode alpha_mode;
     double alpha_cutoff;        /* MASK: a texel of less alpha is not there */
     double metallic, roughness; /* 0..1 */
@@ -42,6 +44,10 @@ struct material {
 void material_default(struct material *material);
 void material_release(struct material *material);
 
+/* The share of light that the surface stops at a texture position (v up, repeating; the texel
+ * that the position lies in): 1 where opaque, 0 or 1 where MASK, factor times texel where BLEND. */
+double material_alpha(const struct material *material, double u, double v);
+
 /* The keyword rules: an ordered list, first match wins. */
 struct material_rules;
 
@@ -50,8 +56,10 @@ struct material_rules;
 bool material_rules_read(struct material_rules **rules, const char *path, struct error *err);
 void material_rules_destroy(struct material_rules *rules);
 
-/* Set kind and, where names_only, figures of a material by its name. `unmatched` is the
- * finish that applies when no keyword is found: FINISH_PAINT for a body, by the file's `default` line. */
-void material_rules_apply(const struct material_rules *rules, struct material *material);
+/* Set a material's kind by its name. Where names_only, a keyword or else the file's `default`
+ * line for the class (CLASS_COUNT: not known) sets kind and figures. A material that came with
+ * figures keeps them: only a keyword for FINISH_PAINT applies, so that it takes the entity's colour. */
+void material_rules_apply(const struct material_rules *rules, struct material *material,
+                          enum entity_class class_);
 
 #endif

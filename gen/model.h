@@ -4,6 +4,7 @@
 #define STAFFAGE_GEN_MODEL_H
 
 #include "gen/material.h"
+#include "lib/class.h"
 #include "lib/error.h"
 #include "lib/vec.h"
 
@@ -41,7 +42,9 @@ struct model_options {
     double height_m;    /* real height; 0: unit_m decides */
     enum axis up, front;
     bool axes_given;    /* false: the format's own (glTF: +y up, +z front); other formats must say */
-    const struct material_rules *rules; /* borrowed */
+    bool has_class;     /* class_ is known: it picks the rules' default line */
+    enum entity_class class_;
+    const struct material_rules *rules; /* borrowed; NULL: figures alone, by material_default where there are none */
 };
 
 /* Load a .gltf, .glb (tinygltf), .obj, .ply, .dae or .fbx (assimp) file. For a skinned
