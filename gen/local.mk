@@ -4,6 +4,6 @@ gen_libgen_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(GEOGRAPHIC_CFLAGS) $(T
   $(ERFA_CFLAGS) $(YAML_CFLAGS) $(JANSSON_CFLAGS)
 gen_libgen_a_SOURCES = \
   %D%/entity.c %D%/entity.h %D%/ground.c %D%/ground.h \
-  %D%/place.cpp %D%/place.h %D%/scene.h %D%/sun.h %D%/trace.h
+  %D%/place.cpp %D%/place.h %D%/scene.h %D%/sun.c %D%/sun.h %D%/trace.h
 gen_libgen_a_SOURCES += %D%/material.h %D%/model.h %D%/texture.h
 GEN_LIBS = gen/libgen.a $(LIB_LIBS) $(GEOGRAPHIC_LIBS) $(TINYGLTF_LIBS) $(ASSIMP_LIBS) $(EMBREE_LIBS) $(ERFA_LIBS) $(YAML_LIBS)
