@@ -3,6 +3,10 @@ noinst_LIBRARIES += gen/libgen.a
 gen_libgen_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(GEOGRAPHIC_CFLAGS) $(TINYGLTF_CFLAGS) $(ASSIMP_CFLAGS) \
   $(ERFA_CFLAGS) $(YAML_CFLAGS) $(JANSSON_CFLAGS)
 gen_libgen_a_SOURCES = \
+  %D%/light.c %D%/light.h \
+  %D%/passes.c %D%/passes.h \
+  %D%/receiver.c %D%/receiver.h \
+  %D%/sdl.c %D%/sdl.h \
   %D%/entity.c %D%/entity.h %D%/ground.c %D%/ground.h \
   %D%/place.cpp %D%/place.h %D%/scene.h %D%/sun.c %D%/sun.h %D%/trace.h
 gen_libgen_a_SOURCES += %D%/material.h %D%/model.h %D%/texture.h

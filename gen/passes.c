@@ -1,0 +1,299 @@
+#include "gen/passes.h"
+
+#include "gen/sdl.h"
+#include "gen/texture.h"
+#include "lib/file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct pass_settings pass_settings(enum quality quality, enum sky_kind sky)
+{
+    /* Under a clear sky the sun makes the shadow and the sky fills it: points of the sky do.
+     * Under clouds the sky makes all of it, and points would show as steps. */
+    bool clear = sky == SKY_CLEAR;
+    switch (quality) {
+    case QUALITY_DRAFT:
+        return (struct pass_settings){ 12, false, 40, 0.9, "-A", "-A" };
+    case QUALITY_HIGH:
+        return (struct pass_settings){ clear ? 64 : 48, !clear, 300, 0.3, "+A0.02 +AM2 +R3 -J", "+A0.05 +AM2 +R3 -J" };
+    case QUALITY_STANDARD:
+    default:
+        return (struct pass_settings){ clear ? 32 : 24, !clear, 80, 0.6, "+A0.05 +AM2 +R2 -J", "+A0.1 +AM2 +R2 -J" };
+    }
+}
+
+/* --- models --- */
+
+void model_include_name(char name[MODEL_NAME_SIZE], size_t model_index, const struct entity *entity)
+{
+    if (!entity->has_color) {
+        snprintf(name, MODEL_NAME_SIZE, "Model_%zu", model_index);
+        return;
+    }
+    uint64_t hash = hash_bytes(FILE_HASH_SEED, entity->color, sizeof entity->color);
+    snprintf(name, MODEL_NAME_SIZE, "Model_%zu_%016llx", model_index, (unsigned long long)hash);
+}
+
+static bool write_pigment(struct sdl *sdl, const char *out_folder, const struct model *model, size_t index,
+                          const double *paint, struct error *err)
+{
+    const struct material *m = &model->materials[index];
+    sdl_begin(sdl, "pigment");
+    if (m->base_image.data) {
+        char name[TEXTURE_NAME_SIZE];
+        bool has_alpha;
+        char *folder = string_format("%s/" TEXTURES_FOLDER, out_folder);
+        char *path = NULL;
+        bool ok = folder && texture_write(name, &has_alpha, model, index, paint, folder, 0, err);
+        if (ok) path = string_format(TEXTURES_FOLDER "/%s", name);
+        if (path) {
+            sdl_begin(sdl, "image_map");
+            sdl_word(sdl, "png");
+            sdl_string(sdl, path);
+            sdl_word(sdl, "interpolate");
+            sdl_number(sdl, 2);
+            sdl_end(sdl);
+        }
+        free(path);
+        free(folder);
+        if (!ok) return false;
+    } else {
+        const double *rgb = paint && m->kind == FINISH_PAINT ? paint : m->base_color;
+        sdl_color(sdl, rgb);
+        double transmit = m->transmission > 0 ? m->transmission : m->alpha_mode == ALPHA_BLEND ? 1 - m->alpha : 0;
+        if (transmit > 0) {
+            sdl_word(sdl, "transmit");
+            sdl_number(sdl, transmit);
+        }
+    }
+    sdl_end(sdl);
+    return true;
+}
+
+static void write_finish(struct sdl *sdl, const struct material *m)
+{
+    double f0 = pow((m->ior - 1) / (m->ior + 1), 2);
+    if (m->transmission > 0 || m->kind == FINISH_GLASS) {
+        sdl_call(sdl, "Finish_Glass", &f0, 1);
+        return;
+    }
+    /* Emission is relative to the pigment in POV-Ray: its luminance is what carries over. */
+    double emission = 0.2126 * m->emissive[0] + 0.7152 * m->emissive[1] + 0.0722 * m->emissive[2];
+    sdl_call(sdl, "Finish_Surface", (double[]){ m->metallic, m->roughness, m->clearcoat, f0, emission }, 5);
+}
+
+static void write_mesh(struct sdl *sdl, const struct mesh *mesh, bool textured)
+{
+    struct { const char *name; const float (*value)[3]; } lists[] = {
+        { "vertex_vectors", (const float (*)[3])mesh->position_m }, { "normal_vectors", (const float (*)[3])mesh->normal }
+    };
+    for (int k = 0; k < 2; k++) {
+        sdl_begin(sdl, lists[k].name);
+        sdl_number(sdl, (double)mesh->vertices);
+        for (size_t i = 0; i < mesh->vertices; i++) {
+            const float *v = lists[k].value[i];
+            sdl_comma(sdl);
+            sdl_vector(sdl, vec3((double)v[0], (double)v[1], (double)v[2]));
+            if (i % 8 == 7) sdl_newline(sdl);
+        }
+        sdl_end(sdl);
+    }
+    if (textured) {
+        sdl_begin(sdl, "uv_vectors");
+        sdl_number(sdl, (double)mesh->vertices);
+        for (size_t i = 0; i < mesh->vertices; i++) {
+            sdl_comma(sdl);
+            sdl_vector2(sdl, (double)mesh->uv[i][0], (double)mesh->uv[i][1]);
+            if (i % 8 == 7) sdl_newline(sdl);
+        }
+        sdl_end(sdl);
+    }
+    sdl_begin(sdl, "face_indices");
+    sdl_number(sdl, (double)mesh->triangles);
+    for (size_t i = 0; i < mesh->triangles; i++) {
+        const uint32_t *t = mesh->triangle[i];
+        sdl_comma(sdl);
+        sdl_vector(sdl, vec3(t[0], t[1], t[2]));
+        if (i % 8 == 7) sdl_newline(sdl);
+    }
+    sdl_end(sdl);
+}
+
+bool model_include_write(const char *out_folder, size_t model_index, const struct entity *entity, struct error *err)
+{
+    const struct model *model = entity->model;
+    const double *paint = entity->has_color ? entity->color : NULL;
+    char name[MODEL_NAME_SIZE];
+    model_include_name(name, model_index, entity);
+    struct sdl sdl;
+    sdl_init(&sdl);
+    sdl_header(&sdl, "a model in one colour: metres, x forward, y left, z up. Needs materials.inc");
+    sdl_declare(&sdl, name);
+    sdl_begin(&sdl, "union");
+    bool ok = true;
+    for (size_t i = 0; ok && i < model->mesh_count; i++) {
+        const struct mesh *mesh = &model->meshes[i];
+        const struct material *material = &model->materials[mesh->material];
+        bool textured = mesh->uv && material->base_image.data;
+        sdl_begin(&sdl, "mesh2");
+        write_mesh(&sdl, mesh, textured);
+        if (textured) {
+            sdl_word(&sdl, "uv_mapping");
+            sdl_newline(&sdl);
+        }
+        sdl_begin(&sdl, "texture");
+        ok = write_pigment(&sdl, out_folder, model, mesh->material, paint, err);
+        write_finish(&sdl, material);
+        sdl_end(&sdl);
+        sdl_end(&sdl);
+    }
+    sdl_end(&sdl);
+    char *path = ok ? string_format("%s/" MODELS_FOLDER "/%s.inc", out_folder, name) : NULL;
+    ok = path && sdl_write(&sdl, path, err);
+    free(path);
+    sdl_release(&sdl);
+    return ok;
+}
+
+/* --- passes --- */
+
+static void write_camera(struct sdl *sdl, const struct passes *p)
+{
+    const struct view *v = &p->view;
+    struct mat3 world_from_view = mat3_multiply(p->world_from_camera.rotation, mat3_transpose(v->view_from_camera));
+    struct vec3 right = mat3_column(world_from_view, 0), up = vec3_scale(mat3_column(world_from_view, 1), -1);
+    struct vec3 middle = vec3_add(vec3_scale(right, (v->width_px / 2.0 - v->cx_px) / v->fx_px),
+                                  vec3_scale(up, -(v->height_px / 2.0 - v->cy_px) / v->fy_px));
+    sdl_declare_vector(sdl, "View_Location", p->world_from_camera.translation);
+    sdl_declare_vector(sdl, "View_Right", vec3_scale(right, v->width_px / v->fx_px));
+    sdl_declare_vector(sdl, "View_Up", vec3_scale(up, v->height_px / v->fy_px));
+    sdl_declare_vector(sdl, "View_Direction", vec3_add(mat3_column(world_from_view, 2), middle));
+    sdl_include(sdl, "camera.inc");
+}
+
+static void write_light(struct sdl *sdl, const struct passes *p, const struct pass_settings *settings, bool lights)
+{
+    const struct light *light = p->light;
+    if (light->has_sun) {
+        sdl_declare_vector(sdl, "Sun_Direction", light->sun_direction);
+        sdl_declare_color(sdl, "Sun_Color", light->sun_color);
+        sdl_declare_number(sdl, "Sun_Tangent", tan(SUN_RADIUS_RAD));
+        sdl_include(sdl, "sun.inc");
+    }
+    sdl_declare_string(sdl, "Sky_Map", SKY_MAP);
+    if (!lights || p->scene->ground_reflection > 0) sdl_include(sdl, "sky.inc");
+    if (!lights) return;
+    struct sky_light *sky = calloc(settings->sky_lights, sizeof *sky);
+    if (!sky) {
+        error_set(&sdl->err, ERR_MEMORY, "no memory for the sky's lights");
+        return;
+    }
+    light_sample_sky(sky, settings->sky_lights, light);
+    /* Each light's share of the hemisphere as a cone: 2 pi (1 - cos r) = 2 pi / n. */
+    double radius = acos(1 - 1.0 / (double)settings->sky_lights);
+    sdl_declare_number(sdl, "Sky_Light_Soft", settings->soft_sky_lights ? tan(radius) : 0);
+    sdl_include(sdl, "sky_lights.inc");
+    for (size_t i = 0; i < settings->sky_lights; i++) {
+        const struct sky_light *s = &sky[i];
+        sdl_call(sdl, "Sky_Light",
+                 (double[]){ s->direction.x, s->direction.y, s->direction.z, s->color[0], s->color[1], s->color[2] }, 6);
+    }
+    free(sky);
+}
+
+static void write_entities(struct sdl *sdl, const struct passes *p)
+{
+    char name[MODEL_NAME_SIZE], other[MODEL_NAME_SIZE], path[sizeof MODELS_FOLDER + MODEL_NAME_SIZE + 8];
+    sdl_include(sdl, "materials.inc");
+    for (size_t i = 0; i < p->entity_count; i++) {
+        model_include_name(name, p->model_index[i], &p->entities[i]);
+        bool seen = false;
+        for (size_t k = 0; k < i && !seen; k++) {
+            model_include_name(other, p->model_index[k], &p->entities[k]);
+            seen = !strcmp(name, other);
+        }
+        if (seen) continue;
+        snprintf(path, sizeof path, MODELS_FOLDER "/%s.inc", name);
+        sdl_include(sdl, path);
+    }
+    sdl_declare(sdl, "Entities");
+    sdl_begin(sdl, "union");
+    for (size_t i = 0; i < p->entity_count; i++) {
+        model_include_name(name, p->model_index[i], &p->entities[i]);
+        sdl_begin(sdl, "object");
+        sdl_word(sdl, name);
+        sdl_matrix(sdl, p->entities[i].world_from_entity);
+        sdl_end(sdl);
+    }
+    sdl_end(sdl);
+}
+
+static void write_receivers(struct sdl *sdl, const struct passes *p)
+{
+    sdl_declare(sdl, "Receivers");
+    sdl_begin(sdl, "union");
+    for (size_t i = 0; i < p->receiver_count; i++) {
+        const struct receiver *r = &p->receivers[i];
+        sdl_begin(sdl, "mesh2");
+        sdl_begin(sdl, "vertex_vectors");
+        sdl_number(sdl, (double)r->corners);
+        for (size_t k = 0; k < r->corners; k++) {
+            sdl_comma(sdl);
+            sdl_vector(sdl, r->corner_m[k]);
+        }
+        sdl_end(sdl);
+        sdl_begin(sdl, "face_indices");
+        sdl_number(sdl, (double)r->corners - 2);
+        for (size_t k = 2; k < r->corners; k++) {
+            sdl_comma(sdl);
+            sdl_vector(sdl, vec3(0, (double)k - 1, (double)k));
+        }
+        sdl_end(sdl);
+        sdl_end(sdl);
+    }
+    sdl_end(sdl);
+}
+
+static bool write_pass(const char *frame_folder, const char *name, const struct passes *p, bool entities,
+                       bool receivers, struct error *err)
+{
+    const struct scene *scene = p->scene;
+    struct pass_settings settings = pass_settings(scene->quality, scene->sky);
+    struct sdl sdl;
+    sdl_init(&sdl);
+    sdl_header(&sdl, "a pass of a frame: POV-Ray runs in the output folder, templates on its library path");
+    sdl_declare_number(&sdl, "Radiosity", receivers ? 0 : 1);
+    sdl_declare_number(&sdl, "Radiosity_Count", settings.radiosity_count);
+    sdl_declare_number(&sdl, "Radiosity_Error", settings.radiosity_error);
+    sdl_include(&sdl, "settings.inc");
+    write_camera(&sdl, p);
+    write_light(&sdl, p, &settings, receivers);
+    sdl_declare_color(&sdl, "Ground_Albedo", scene->ground_albedo);
+    sdl_declare_number(&sdl, "Ground_Reflection", scene->ground_reflection);
+    sdl_include(&sdl, "ground.inc");
+    if (entities) write_entities(&sdl, p);
+    if (receivers) write_receivers(&sdl, p);
+    else {
+        sdl_declare_vector(&sdl, "Ground_Normal", scene->ground.normal);
+        sdl_declare_number(&sdl, "Ground_Offset", scene->ground.offset_m);
+    }
+    char *include = string_format("pass_%s.inc", name), *path = string_format("%s/%s.pov", frame_folder, name);
+    bool ok = include && path;
+    if (ok) {
+        sdl_include(&sdl, include);
+        ok = sdl_write(&sdl, path, err);
+    }
+    free(include);
+    free(path);
+    sdl_release(&sdl);
+    return ok;
+}
+
+bool passes_write(const char *frame_folder, const struct passes *passes, struct error *err)
+{
+    return write_pass(frame_folder, "object", passes, true, false, err) &&
+           write_pass(frame_folder, "plane", passes, false, true, err) &&
+           write_pass(frame_folder, "shadow", passes, true, true, err);
+}
