@@ -21,4 +21,9 @@ tests_lib_camera_test_SOURCES = %D%/lib/camera.c %D%/tap.h
 nodist_EXTRA_tests_lib_camera_test_SOURCES = dummy.cxx
 tests_lib_camera_test_LDADD = $(LIB_LIBS)
 
+check_PROGRAMS += tests/lib/tsai.test
+tests_lib_tsai_test_SOURCES = %D%/lib/tsai.c %D%/tap.h
+nodist_EXTRA_tests_lib_tsai_test_SOURCES = dummy.cxx
+tests_lib_tsai_test_LDADD = $(LIB_LIBS)
+
 TESTS += $(check_PROGRAMS) $(dist_check_SCRIPTS)
