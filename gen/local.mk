@@ -8,6 +8,8 @@ gen_libgen_a_SOURCES = \
   %D%/receiver.c %D%/receiver.h \
   %D%/sdl.c %D%/sdl.h \
   %D%/entity.c %D%/entity.h %D%/ground.c %D%/ground.h \
-  %D%/place.cpp %D%/place.h %D%/scene.h %D%/sun.c %D%/sun.h %D%/trace.h
+  %D%/nearest.c %D%/nearest.h %D%/place.cpp %D%/place.h %D%/scene.c %D%/scene.h %D%/scene_keys.c %D%/scene_keys.h \
+  %D%/scene_pose.c %D%/scene_pose.h %D%/schema.c %D%/schema.h %D%/sun.c %D%/sun.h %D%/trace.h \
+  %D%/yaml.c %D%/yaml.h
 gen_libgen_a_SOURCES += %D%/material.h %D%/model.h %D%/texture.h
 GEN_LIBS = gen/libgen.a $(LIB_LIBS) $(GEOGRAPHIC_LIBS) $(TINYGLTF_LIBS) $(ASSIMP_LIBS) $(EMBREE_LIBS) $(ERFA_LIBS) $(YAML_LIBS)

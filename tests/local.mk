@@ -25,5 +25,10 @@ check_PROGRAMS += tests/lib/tsai.test
 tests_lib_tsai_test_SOURCES = %D%/lib/tsai.c %D%/tap.h
 nodist_EXTRA_tests_lib_tsai_test_SOURCES = dummy.cxx
 tests_lib_tsai_test_LDADD = $(LIB_LIBS)
+check_PROGRAMS += tests/gen/scene.test
+tests_gen_scene_test_SOURCES = %D%/gen/scene.c %D%/tap.h
+nodist_EXTRA_tests_gen_scene_test_SOURCES = dummy.cxx
+tests_gen_scene_test_LDADD = $(GEN_LIBS)
+EXTRA_DIST += %D%/input
 
 TESTS += $(check_PROGRAMS) $(dist_check_SCRIPTS)

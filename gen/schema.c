@@ -1,0 +1,595 @@
+#include "gen/schema.h"
+
+#include "gen/nearest.h"
+#include "gen/sun.h"
+#include "lib/file.h"
+#include "lib/image.h"
+
+#include <assert.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A place in the tree, as the table names it and as the user sees it. */
+struct where { char table[160], shown[240]; };
+
+struct check {
+    const struct schema *schema;
+    const char *file;
+    struct error *err;
+};
+
+static struct where where_key(const struct where *parent, const char *key, const char *shown)
+{
+    struct where w;
+    snprintf(w.table, sizeof w.table, "%.110s%s%.48s", parent->table, *parent->table ? "." : "", key);
+    snprintf(w.shown, sizeof w.shown, "%.150s%s%.60s", parent->shown, *parent->shown ? "." : "", shown);
+    return w;
+}
+
+static struct where where_item(const struct where *parent, size_t i)
+{
+    struct where w;
+    snprintf(w.table, sizeof w.table, "%.150s[]", parent->table);
+    snprintf(w.shown, sizeof w.shown, "%.200s[%zu]", parent->shown, i);
+    return w;
+}
+
+/* The last part of a path when the rest is `parent`, else NULL. */
+static const char *child_name(const char *path, const char *parent)
+{
+    size_t n = strlen(parent);
+    if (n && (strncmp(path, parent, n) || path[n++] != '.')) return NULL;
+    return strchr(path + n, '.') ? NULL : path + n;
+}
+
+static const struct schema_key *find(const struct schema *schema, const char *path)
+{
+    for (size_t i = 0; i < schema->count; i++)
+        if (!strcmp(schema->keys[i].path, path)) return &schema->keys[i];
+    return NULL;
+}
+
+/* What a value may be, in words. */
+
+static void print_limits(FILE *out, const struct schema_key *key)
+{
+    if (!(key->min < key->max)) return;
+    if (isinf(key->max))
+        fprintf(out, key->above_min ? " above %g" : " of at least %g", key->min);
+    else
+        fprintf(out, key->above_min ? " above %.10g up to %.10g" : " from %.10g to %.10g", key->min, key->max);
+}
+
+static void print_list(FILE *out, int min, int max, const char *of)
+{
+    if (max && min == max)
+        fprintf(out, "list of %d %s", min, of);
+    else if (max)
+        fprintf(out, "list of %d to %d %s", min, max, of);
+    else if (min > 1)
+        fprintf(out, "list of at least %d %s", min, of);
+    else
+        fprintf(out, "list of %s", of);
+}
+
+static void print_choices(FILE *out, const struct schema_key *key)
+{
+    for (int i = 0; key->choice(i); i++) fprintf(out, "%s%s", i ? ", " : "", key->choice(i));
+}
+
+static void print_type(FILE *out, const struct schema_key *key, enum schema_type type)
+{
+    char of[48];
+    switch (type) {
+    case TYPE_MAPPING: fputs("mapping", out); break;
+    case TYPE_NAMED: fputs("names with a mapping each", out); break;
+    case TYPE_ITEMS: print_list(out, key->count_min, key->count_max, "mappings"); break;
+    case TYPE_NUMBER:
+        fputs("number", out);
+        print_limits(out, key);
+        break;
+    case TYPE_INTEGER:
+        fputs("integer", out);
+        print_limits(out, key);
+        break;
+    case TYPE_BOOLEAN: fputs("true or false", out); break;
+    case TYPE_CHOICE:
+        fputs("one of ", out);
+        print_choices(out, key);
+        break;
+    case TYPE_TEXT:
+        fputs("text", out);
+        if (key->count_max) fprintf(out, " of up to %d bytes", key->count_max);
+        break;
+    case TYPE_FILE: fputs("file", out); break;
+    case TYPE_TIME: fputs("time with offset", out); break;
+    case TYPE_COLOR: fputs("\"#rrggbb\"", out); break;
+    case TYPE_RANGE: fputs("\"first:end:step\"", out); break;
+    case TYPE_NUMBERS:
+        print_list(out, key->count_min, key->count_max, "numbers");
+        print_limits(out, key);
+        break;
+    case TYPE_INTEGERS:
+        print_list(out, key->count_min, key->count_max, "integers");
+        print_limits(out, key);
+        break;
+    case TYPE_CHOICES:
+        print_list(out, key->count_min, key->count_max, "of ");
+        print_choices(out, key);
+        break;
+    case TYPE_FILES: print_list(out, key->count_min, key->count_max, "files"); break;
+    case TYPE_ROWS:
+        snprintf(of, sizeof of, "lists of %d numbers", key->columns);
+        print_list(out, key->count_min, key->count_max, of);
+        break;
+    }
+}
+
+static void print_types(FILE *out, const struct schema_key *key)
+{
+    bool first = true;
+    for (unsigned bit = 1; bit <= TYPE_ROWS; bit <<= 1) {
+        if (!(key->types & bit)) continue;
+        if (!first) fputs(" or ", out);
+        print_type(out, key, (enum schema_type)bit);
+        first = false;
+    }
+}
+
+static void print_found(FILE *out, const struct yaml_node *node)
+{
+    double number;
+    bool boolean;
+    if (node->kind == YAML_MAPPING)
+        fputs("mapping", out);
+    else if (node->kind == YAML_SEQUENCE)
+        fprintf(out, "list of %zu", node->count);
+    else if (yaml_is_null(node))
+        fputs("nothing", out);
+    else if (yaml_number(&number, node) || yaml_boolean(&boolean, node))
+        fprintf(out, "%.80s", node->text);
+    else
+        fprintf(out, "\"%.80s\"", node->text);
+}
+
+/* Record what `print` writes, with the place in front. Returns false. */
+static bool report(const struct check *c, const struct yaml_node *node, const struct where *where, char *text)
+{
+    if (!text) return error_set(c->err, ERR_MEMORY, "no memory for a message");
+    error_at(c->err, ERR_INPUT, c->file, node->line, node->column, "%s%s%s", where->shown, *where->shown ? ": " : "",
+             text);
+    free(text);
+    return false;
+}
+
+static bool unexpected(const struct check *c, const struct schema_key *key, const struct where *where,
+                       const struct yaml_node *node)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) return error_set(c->err, ERR_MEMORY, "no memory for a message");
+    fputs("expected ", out);
+    print_types(out, key);
+    fputs(", found ", out);
+    print_found(out, node);
+    if (yaml_is_null(node) && key->types & TYPE_COLOR) fputs(" (without quotes, # starts a comment)", out);
+    struct yaml_node bare = *node;
+    bare.plain = true;
+    double number;
+    if (node->kind == YAML_SCALAR && !node->plain && yaml_number(&number, &bare)) fputs(" in quotes", out);
+    fclose(out);
+    return report(c, node, where, text);
+}
+
+/* The same for an element of a list, whose type is the list's without "list of". */
+static bool unexpected_item(const struct check *c, const struct schema_key *key, enum schema_type type,
+                            const struct where *list, size_t i, const struct yaml_node *item)
+{
+    struct schema_key element = *key;
+    element.types = type;
+    struct where where = where_item(list, i);
+    return unexpected(c, &element, &where, item);
+}
+
+static bool unknown_choice(const struct check *c, const struct schema_key *key, const struct where *where,
+                           const struct yaml_node *node)
+{
+    /* "light.sky" reads as: light: unknown sky */
+    struct where parent = *where;
+    char *dot = strrchr(parent.shown, '.');
+    if (dot)
+        *dot = 0;
+    else
+        *parent.shown = 0;
+    const char *dot_in_table = strrchr(key->path, '.');
+    const char *name = dot_in_table ? dot_in_table + 1 : key->path;
+    struct nearest nearest = { NULL, 0 };
+    for (int i = 0; key->choice(i); i++) nearest_offer(&nearest, node->text, key->choice(i));
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) return error_set(c->err, ERR_MEMORY, "no memory for a message");
+    fprintf(out, "unknown %s \"%.80s\" (", name, node->text);
+    if (nearest.name) {
+        fprintf(out, "did you mean \"%s\"?", nearest.name);
+    } else {
+        struct schema_key words = *key;
+        words.types &= ~(unsigned)TYPE_CHOICES;
+        words.types |= TYPE_CHOICE;
+        print_types(out, &words);
+    }
+    fputc(')', out);
+    fclose(out);
+    return report(c, node, &parent, text);
+}
+
+static bool unknown_key(const struct check *c, const struct where *where, const struct yaml_node *mapping, size_t i)
+{
+    const char *name = mapping->keys[i].text, *elsewhere = NULL;
+    struct nearest nearest = { NULL, 0 };
+    for (size_t k = 0; k < c->schema->count; k++) {
+        const char *path = c->schema->keys[k].path, *sibling = child_name(path, where->table);
+        if (sibling) nearest_offer(&nearest, name, sibling);
+        const char *dot = strrchr(path, '.');
+        if (!elsewhere && !strcmp(dot ? dot + 1 : path, name)) elsewhere = path;
+    }
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) return error_set(c->err, ERR_MEMORY, "no memory for a message");
+    fprintf(out, "unknown key \"%.80s\" (", name);
+    if (nearest.name) {
+        fprintf(out, "did you mean \"%s\"?", nearest.name);
+    } else if (elsewhere) {
+        fprintf(out, "it belongs at %s", elsewhere);
+    } else {
+        fputs("known here: ", out);
+        for (size_t k = 0, n = 0; k < c->schema->count; k++) {
+            const char *sibling = child_name(c->schema->keys[k].path, where->table);
+            if (sibling) fprintf(out, "%s%s", n++ ? ", " : "", sibling);
+        }
+    }
+    fputc(')', out);
+    fclose(out);
+    struct yaml_node at_key = { .line = mapping->keys[i].line, .column = mapping->keys[i].column };
+    return report(c, &at_key, where, text);
+}
+
+/* Values. */
+
+static bool within(const struct schema_key *key, double value)
+{
+    if (!(key->min < key->max)) return true;
+    return (key->above_min ? value > key->min : value >= key->min) && value <= key->max;
+}
+
+static bool good_number(const struct schema_key *key, const struct yaml_node *node)
+{
+    double number;
+    return yaml_number(&number, node) && within(key, number);
+}
+
+static bool good_integer(const struct schema_key *key, const struct yaml_node *node)
+{
+    int integer;
+    return yaml_integer(&integer, node) && within(key, integer);
+}
+
+static bool good_count(const struct schema_key *key, size_t count)
+{
+    return count >= (size_t)key->count_min && (!key->count_max || count <= (size_t)key->count_max);
+}
+
+static bool good_text(const struct schema_key *key, const struct yaml_node *node)
+{
+    size_t length = strlen(node->text);
+    return length > 0 && (!key->count_max || length <= (size_t)key->count_max);
+}
+
+static bool check_file(const struct check *c, const struct where *where, const struct yaml_node *node)
+{
+    char *path = path_beside(c->file, node->text);
+    if (!path) return error_set(c->err, ERR_MEMORY, "no memory for a path");
+    bool there = file_exists(path);
+    free(path);
+    return there || report(c, node, where,
+                           string_format("there is no file \"%.300s\" (a path starts at the folder of this file)",
+                                         node->text));
+}
+
+static bool check_time(const struct check *c, const struct where *where, const struct yaml_node *node)
+{
+    struct utc_time utc;
+    const char *wrong = utc_time_parse(&utc, node->text);
+    return !wrong || report(c, node, where, string_format("\"%.80s\": %s", node->text, wrong));
+}
+
+static bool check_scalar(const struct check *c, const struct schema_key *key, const struct where *where,
+                         const struct yaml_node *node)
+{
+    double color[3];
+    bool boolean;
+    int first, end, step;
+    unsigned types = key->types;
+    if (yaml_is_null(node)) return unexpected(c, key, where, node);
+    if (types & TYPE_NUMBER && good_number(key, node)) return true;
+    if (types & TYPE_INTEGER && good_integer(key, node)) return true;
+    if (types & TYPE_BOOLEAN && yaml_boolean(&boolean, node)) return true;
+    if (types & TYPE_CHOICE) return schema_choice(key->choice, node) >= 0 || unknown_choice(c, key, where, node);
+    if (types & TYPE_TEXT && good_text(key, node)) return true;
+    if (types & TYPE_FILE && good_text(key, node)) return check_file(c, where, node);
+    if (types & TYPE_TIME) return check_time(c, where, node);
+    if (types & TYPE_COLOR && schema_color(color, node)) return true;
+    if (types & TYPE_RANGE && schema_range(&first, &end, &step, node)) return true;
+    return unexpected(c, key, where, node);
+}
+
+static bool check_row(const struct check *c, const struct schema_key *key, const struct where *rows, size_t i,
+                      const struct yaml_node *row)
+{
+    struct schema_key element = *key;
+    element.types = TYPE_NUMBERS;
+    element.count_min = element.count_max = key->columns;
+    struct where where = where_item(rows, i);
+    if (row->kind != YAML_SEQUENCE || row->count != (size_t)key->columns) return unexpected(c, &element, &where, row);
+    for (size_t j = 0; j < row->count; j++)
+        if (!good_number(key, row->items[j])) return unexpected_item(c, key, TYPE_NUMBER, &where, j, row->items[j]);
+    return true;
+}
+
+static bool check_item(const struct check *c, const struct schema_key *key, const struct where *list, size_t i,
+                       const struct yaml_node *item)
+{
+    unsigned types = key->types;
+    struct where where = where_item(list, i);
+    if (types & TYPE_ROWS) return check_row(c, key, list, i, item);
+    if (types & TYPE_NUMBERS)
+        return good_number(key, item) || unexpected_item(c, key, TYPE_NUMBER, list, i, item);
+    if (types & TYPE_INTEGERS)
+        return good_integer(key, item) || unexpected_item(c, key, TYPE_INTEGER, list, i, item);
+    if (item->kind != YAML_SCALAR || yaml_is_null(item) || !*item->text)
+        return unexpected_item(c, key, types & TYPE_FILES ? TYPE_FILE : TYPE_CHOICE, list, i, item);
+    if (types & TYPE_FILES) return check_file(c, &where, item);
+    return schema_choice(key->choice, item) >= 0 || unknown_choice(c, key, &where, item);
+}
+
+static bool check_mapping(const struct check *c, const struct where *where, const struct yaml_node *mapping);
+
+static bool check_sequence(const struct check *c, const struct schema_key *key, const struct where *where,
+                           const struct yaml_node *node)
+{
+    if (!(key->types & (TYPE_ITEMS | TYPE_NUMBERS | TYPE_INTEGERS | TYPE_CHOICES | TYPE_FILES | TYPE_ROWS)) ||
+        !good_count(key, node->count))
+        return unexpected(c, key, where, node);
+    for (size_t i = 0; i < node->count; i++) {
+        const struct yaml_node *item = node->items[i];
+        if (!(key->types & TYPE_ITEMS)) {
+            if (!check_item(c, key, where, i, item)) return false;
+            continue;
+        }
+        struct where item_where = where_item(where, i);
+        if (item->kind != YAML_MAPPING) return unexpected_item(c, key, TYPE_MAPPING, where, i, item);
+        if (!check_mapping(c, &item_where, item)) return false;
+    }
+    return true;
+}
+
+static bool check_named(const struct check *c, const struct schema_key *key, const struct where *where,
+                        const struct yaml_node *node)
+{
+    struct schema_key element = *key;
+    element.types = TYPE_MAPPING;
+    for (size_t i = 0; i < node->count; i++) {
+        struct where item = where_key(where, "NAME", node->keys[i].text);
+        if (node->items[i]->kind != YAML_MAPPING) return unexpected(c, &element, &item, node->items[i]);
+        if (!check_mapping(c, &item, node->items[i])) return false;
+    }
+    return true;
+}
+
+static bool check_value(const struct check *c, const struct schema_key *key, const struct where *where,
+                        const struct yaml_node *node)
+{
+    if (node->kind == YAML_SCALAR) return check_scalar(c, key, where, node);
+    if (node->kind == YAML_SEQUENCE) return check_sequence(c, key, where, node);
+    if (key->types & TYPE_NAMED) return check_named(c, key, where, node);
+    if (key->types & TYPE_MAPPING) return check_mapping(c, where, node);
+    return unexpected(c, key, where, node);
+}
+
+static bool missing(const struct check *c, const struct schema_key *key, const char *name, const struct where *where,
+                    const struct yaml_node *mapping)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) return error_set(c->err, ERR_MEMORY, "no memory for a message");
+    fprintf(out, "key \"%s\" is missing (", name);
+    print_types(out, key);
+    fputc(')', out);
+    fclose(out);
+    return report(c, mapping, where, text);
+}
+
+/* Names of the mapping's keys of that presence: "a, b, c". NULL when memory ends. */
+static char *group_names(const struct schema *schema, const char *parent, enum schema_presence presence)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) return NULL;
+    for (size_t k = 0, n = 0; k < schema->count; k++) {
+        const char *name = child_name(schema->keys[k].path, parent);
+        if (name && schema->keys[k].presence == presence) fprintf(out, "%s%s", n++ ? ", " : "", name);
+    }
+    fclose(out);
+    return text;
+}
+
+static bool check_group(const struct check *c, const struct where *where, const struct yaml_node *mapping,
+                        enum schema_presence presence)
+{
+    bool any = false;
+    const char *given[2] = { NULL, NULL };
+    for (size_t k = 0; k < c->schema->count; k++) {
+        const char *name = child_name(c->schema->keys[k].path, where->table);
+        if (!name || c->schema->keys[k].presence != presence) continue;
+        any = true;
+        if (yaml_get(mapping, name) && !given[1]) given[given[0] ? 1 : 0] = name;
+    }
+    if (!any || (given[0] ? !given[1] : presence == AT_MOST_ONE_OF)) return true;
+    char *names = group_names(c->schema, where->table, presence);
+    if (!names) return error_set(c->err, ERR_MEMORY, "no memory for a message");
+    char *text = given[0] ? string_format("\"%s\" and \"%s\" exclude each other (give one of %s)", given[0], given[1], names)
+                          : string_format("one of %s is missing", names);
+    free(names);
+    return report(c, mapping, where, text);
+}
+
+static bool check_mapping(const struct check *c, const struct where *where, const struct yaml_node *mapping)
+{
+    for (size_t i = 0; i < mapping->count; i++) {
+        const char *name = mapping->keys[i].text;
+        struct where below = where_key(where, name, name);
+        const struct schema_key *key = find(c->schema, below.table);
+        if (!key || strchr(name, '.')) return unknown_key(c, where, mapping, i);
+        if (!check_value(c, key, &below, mapping->items[i])) return false;
+    }
+    for (size_t k = 0; k < c->schema->count; k++) {
+        const struct schema_key *key = &c->schema->keys[k];
+        const char *name = child_name(key->path, where->table);
+        if (name && key->presence == REQUIRED && !yaml_get(mapping, name)) return missing(c, key, name, where, mapping);
+    }
+    return check_group(c, where, mapping, ONE_OF) && check_group(c, where, mapping, AT_MOST_ONE_OF);
+}
+
+bool schema_check(const struct schema *schema, const struct yaml_node *root, const char *file, struct error *err)
+{
+    struct check c = { schema, file, err };
+    struct where top = { "", "" };
+    if (root->kind != YAML_MAPPING)
+        return error_at(err, ERR_INPUT, file, root->line, root->column,
+                        "expected \"key: value\" lines, as in docs/scene.md");
+    return check_mapping(&c, &top, root);
+}
+
+static void mark_default(struct yaml_node *node, int line, int column)
+{
+    node->is_default = true;
+    node->line = line;
+    node->column = column;
+    for (size_t i = 0; i < node->count; i++) mark_default(node->items[i], line, column);
+}
+
+static bool fill_mapping(const struct schema *schema, const struct where *where, struct yaml_node *mapping,
+                         struct error *err)
+{
+    for (size_t k = 0; k < schema->count; k++) {
+        const struct schema_key *key = &schema->keys[k];
+        const char *name = child_name(key->path, where->table);
+        if (!name || !key->preset || yaml_get(mapping, name)) continue;
+        struct yaml_node *value;
+        if (!yaml_parse(&value, key->preset, strlen(key->preset), key->path, err)) return false;
+        mark_default(value, mapping->line, mapping->column);
+        if (!yaml_add(mapping, name, value, err)) return false;
+    }
+    for (size_t i = 0; i < mapping->count; i++) {
+        struct yaml_node *item = mapping->items[i];
+        struct where below = where_key(where, mapping->keys[i].text, "");
+        const struct schema_key *key = find(schema, below.table);
+        assert(key); /* the tree is checked */
+        struct where named = where_key(&below, "NAME", ""), listed = where_item(&below, 0);
+        if (item->kind == YAML_MAPPING && key->types & TYPE_MAPPING && !fill_mapping(schema, &below, item, err)) return false;
+        for (size_t j = 0; item->kind == YAML_MAPPING && key->types & TYPE_NAMED && j < item->count; j++)
+            if (!fill_mapping(schema, &named, item->items[j], err)) return false;
+        for (size_t j = 0; item->kind == YAML_SEQUENCE && key->types & TYPE_ITEMS && j < item->count; j++)
+            if (!fill_mapping(schema, &listed, item->items[j], err)) return false;
+    }
+    return true;
+}
+
+bool schema_fill(const struct schema *schema, struct yaml_node *root, struct error *err)
+{
+    struct where top = { "", "" };
+    return fill_mapping(schema, &top, root, err);
+}
+
+char *schema_text(const struct schema *schema)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) return NULL;
+    for (size_t k = 0; k < schema->count; k++) {
+        const struct schema_key *key = &schema->keys[k];
+        fprintf(out, "%s\t", key->path);
+        print_types(out, key);
+        fprintf(out, "\t%s\t", key->unit ? key->unit : "-");
+        if (key->presence == ONE_OF || key->presence == AT_MOST_ONE_OF) {
+            const char *dot = strrchr(key->path, '.');
+            char *parent = strndup(key->path, dot ? (size_t)(dot - key->path) : 0);
+            char *names = parent ? group_names(schema, parent, key->presence) : NULL;
+            if (names) fprintf(out, "%s of %s\n", key->presence == ONE_OF ? "one" : "at most one", names);
+            free(names);
+            free(parent);
+        } else {
+            fprintf(out, "%s\n", key->presence == REQUIRED ? "required" : key->preset ? key->preset : "none");
+        }
+    }
+    bool failed = ferror(out);
+    if (fclose(out) == 0 && !failed) return text;
+    free(text);
+    return NULL;
+}
+
+double schema_number(const struct yaml_node *node)
+{
+    double number;
+    bool good = yaml_number(&number, node);
+    assert(good);
+    return good ? number : 0;
+}
+
+void schema_numbers(double *number, size_t n, const struct yaml_node *list)
+{
+    assert(list->kind == YAML_SEQUENCE && list->count >= n);
+    for (size_t i = 0; i < n; i++) number[i] = schema_number(list->items[i]);
+}
+
+int schema_choice(const char *(*choice)(int i), const struct yaml_node *node)
+{
+    if (node->kind != YAML_SCALAR) return -1;
+    for (int i = 0; choice(i); i++)
+        if (!strcmp(choice(i), node->text)) return i;
+    return -1;
+}
+
+bool schema_color(double linear[3], const struct yaml_node *node)
+{
+    const char *text = node->text;
+    if (node->kind != YAML_SCALAR || strlen(text) != 7 || text[0] != '#' || strspn(text + 1, "0123456789abcdefABCDEF") != 6)
+        return false;
+    unsigned long rgb = strtoul(text + 1, NULL, 16);
+    for (int i = 0; i < 3; i++) linear[i] = (double)linear_from_srgb((float)((rgb >> (16 - 8 * i)) & 255u) / 255.0f);
+    return true;
+}
+
+bool schema_range(int *first, int *end, int *step, const struct yaml_node *node)
+{
+    int value[3];
+    const char *c = node->text;
+    if (node->kind != YAML_SCALAR) return false;
+    for (int i = 0; i < 3; i++) {
+        size_t digits = strspn(c, "0123456789");
+        if (!digits || digits > 9 || c[digits] != (i < 2 ? ':' : 0)) return false;
+        value[i] = (int)strtol(c, NULL, 10);
+        c += digits + 1;
+    }
+    if (value[0] >= value[1] || value[2] < 1) return false;
+    *first = value[0];
+    *end = value[1];
+    *step = value[2];
+    return true;
+}
