@@ -12,4 +12,6 @@ gen_libgen_a_SOURCES = \
   %D%/scene_pose.c %D%/scene_pose.h %D%/schema.c %D%/schema.h %D%/sun.c %D%/sun.h %D%/trace.h \
   %D%/yaml.c %D%/yaml.h
 gen_libgen_a_SOURCES += %D%/material.h %D%/model.h %D%/texture.h
+gen_libgen_a_SOURCES += \
+  %D%/footprint.c %D%/footprint.h %D%/polygon.c %D%/polygon.h %D%/shape.c %D%/shape.h %D%/trace.c
 GEN_LIBS = gen/libgen.a $(LIB_LIBS) $(GEOGRAPHIC_LIBS) $(TINYGLTF_LIBS) $(ASSIMP_LIBS) $(EMBREE_LIBS) $(ERFA_LIBS) $(YAML_LIBS)

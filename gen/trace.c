@@ -1,0 +1,508 @@
+#include "gen/trace.h"
+
+#include "gen/footprint.h"
+#include "gen/polygon.h"
+#include "gen/shape.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define OUTSIDE_RAYS 4000000.0 /* at most about so many for what of an entity lies outside the photograph */
+#define EDGE_PX 2              /* an entity's soft edge in a rendered picture lies within so many pixels */
+
+struct tracer {
+    RTCDevice device;
+    struct shape **shapes; /* (n) */
+    size_t n;
+};
+
+bool tracer_create(struct tracer **tracer, const struct model *const *models, size_t n, struct error *err)
+{
+    struct tracer *t = calloc(1, sizeof *t);
+    if (!t) return error_set(err, ERR_MEMORY, "no memory for a tracer");
+    t->shapes = calloc(n + 1, sizeof *t->shapes);
+    t->device = rtcNewDevice("threads=1");
+    if (!t->shapes || !t->device) {
+        error_set(err, ERR_MEMORY, "no memory for a tracer");
+        goto failed;
+    }
+    for (; t->n < n; t->n++)
+        if (!shape_create(&t->shapes[t->n], t->device, models[t->n], err)) goto failed;
+    *tracer = t;
+    return true;
+failed:
+    tracer_destroy(t);
+    return false;
+}
+
+void tracer_destroy(struct tracer *tracer)
+{
+    if (!tracer) return;
+    for (size_t i = 0; i < tracer->n; i++) shape_destroy(tracer->shapes[i]);
+    free(tracer->shapes);
+    if (tracer->device) rtcReleaseDevice(tracer->device);
+    free(tracer);
+}
+
+static const struct shape *tracer_shape(const struct tracer *tracer, const struct model *model)
+{
+    for (size_t i = 0; i < tracer->n; i++)
+        if (shape_model(tracer->shapes[i]) == model) return tracer->shapes[i];
+    return NULL;
+}
+
+/* Rays through pixels. A lens has to be inverted step by step, so each row of the photograph
+ * remembers the rays that it was asked for. */
+struct rays {
+    const struct camera *camera;
+    struct camera_intrinsics in;
+    bool pinhole;
+    struct vec3 *row;                                  /* (width) unit, camera coordinates */
+    enum { RAY_UNKNOWN, RAY_KNOWN, RAY_NONE } *state;  /* (width) of the row */
+};
+
+static bool ray_at(const struct rays *rays, struct vec3 *direction, double x_px, double y_px)
+{
+    if (rays->pinhole) {
+        *direction = vec3_unit(vec3((x_px - rays->in.cx_px) / rays->in.fx_px, (y_px - rays->in.cy_px) / rays->in.fy_px, 1));
+        return true;
+    }
+    struct error none = ERROR_NONE;
+    return camera_unproject(rays->camera, direction, (struct vec2){ x_px, y_px }, &none);
+}
+
+static void rays_begin_row(struct rays *rays)
+{
+    memset(rays->state, 0, (size_t)rays->camera->width_px * sizeof *rays->state);
+}
+
+static bool row_ray(struct rays *rays, struct vec3 *direction, int x, int y)
+{
+    if (rays->state[x] == RAY_UNKNOWN)
+        rays->state[x] = ray_at(rays, &rays->row[x], x + 0.5, y + 0.5) ? RAY_KNOWN : RAY_NONE;
+    *direction = rays->row[x];
+    return rays->state[x] == RAY_KNOWN;
+}
+
+/* A plane in camera coordinates that rays from the camera meet at range level / (normal . direction). */
+struct sight_plane { struct vec3 normal; double level_m; };
+
+static double sight_range(struct sight_plane plane, struct vec3 direction)
+{
+    double range = plane.level_m / vec3_dot(plane.normal, direction);
+    return range > 0 ? range : INFINITY;
+}
+
+struct screen {
+    const struct occluder *occluder;
+    struct polygon polygon;
+    struct rect bounds_px;
+    struct sight_plane plane;
+    uint64_t *samples; /* (width of bounds) of a row */
+    bool *inside;      /* the same */
+};
+
+/* An entity in this frame. */
+struct cast {
+    const struct shape *shape;
+    struct pose entity_from_camera;
+    struct rect reach_px;  /* where it can be, beyond the photograph as well */
+    struct rect frame_px;  /* the part of that inside the photograph */
+    uint8_t *mask;         /* (h,w) of frame_px */
+    float *depth_m;
+};
+
+struct frame {
+    struct rays rays;
+    const struct entity *entities;
+    struct cast *casts;
+    size_t cast_count;
+    struct screen *screens;
+    size_t screen_count;
+    struct sight_plane ground;
+    double *range_m;    /* (width) of the nearest entity in a row */
+    ptrdiff_t *front;   /* (width) what is in front: -1, an entity, or cast_count + a screen */
+    int64_t *counts;    /* (cast_count, cast_count + screen_count): pixels of an entity by what is in front there */
+    struct image ahead; /* F32 1, only with screens: range of the nearest entity, infinite where there is none */
+};
+
+static struct rect rect_intersect(struct rect a, struct rect b)
+{
+    struct rect r = { a.x0 > b.x0 ? a.x0 : b.x0, a.y0 > b.y0 ? a.y0 : b.y0, a.x1 < b.x1 ? a.x1 : b.x1,
+                      a.y1 < b.y1 ? a.y1 : b.y1 };
+    return r.x0 < r.x1 && r.y0 < r.y1 ? r : (struct rect){ 0, 0, 0, 0 };
+}
+
+static size_t rect_area(struct rect r)
+{
+    return (size_t)(r.x1 - r.x0) * (size_t)(r.y1 - r.y0);
+}
+
+static bool rect_holds(struct rect r, int x, int y)
+{
+    return x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1;
+}
+
+/* Grow a rectangle, empty when x1 is 0 and x0 is, to hold w x h pixels from (x, y). */
+static void rect_add(struct rect *r, bool *any, int x, int y, int side)
+{
+    if (!*any) *r = (struct rect){ x, y, x + side, y + side };
+    *any = true;
+    if (x < r->x0) r->x0 = x;
+    if (y < r->y0) r->y0 = y;
+    if (x + side > r->x1) r->x1 = x + side;
+    if (y + side > r->y1) r->y1 = y + side;
+}
+
+static bool cast_hit(const struct cast *cast, double *range_m, struct vec3 direction)
+{
+    return shape_hit(cast->shape, range_m, cast->entity_from_camera.translation,
+                     mat3_apply(cast->entity_from_camera.rotation, direction));
+}
+
+static bool cast_init(struct cast *cast, const struct tracer *tracer, const struct camera *camera,
+                      struct pose world_from_camera, const struct entity *entity, struct error *err)
+{
+    cast->shape = tracer_shape(tracer, entity->model);
+    if (!cast->shape) return error_set(err, ERR_BUG, "entity %s has a model that the tracer was not made with", entity->name);
+    cast->entity_from_camera = pose_compose(pose_inverse(entity->world_from_entity), world_from_camera);
+    struct vec3 min_m, max_m;
+    if (!shape_bounds(cast->shape, &min_m, &max_m)) return true;
+    int w = camera->width_px, h = camera->height_px;
+    cast->reach_px = footprint(camera, pose_inverse(cast->entity_from_camera), min_m, max_m,
+                               (struct rect){ -w, -h, 2 * w, 2 * h });
+    cast->frame_px = rect_intersect(cast->reach_px, (struct rect){ 0, 0, w, h });
+    size_t area = rect_area(cast->frame_px);
+    if (area == 0) return true;
+    cast->mask = calloc(area, sizeof *cast->mask);
+    cast->depth_m = malloc(area * sizeof *cast->depth_m);
+    if (!cast->mask || !cast->depth_m) return error_set(err, ERR_MEMORY, "no memory for the mask of %s", entity->name);
+    return true;
+}
+
+static bool screen_init(struct screen *screen, const struct camera *camera, struct pose world_from_camera,
+                        const struct occluder *occluder, struct error *err)
+{
+    screen->occluder = occluder;
+    if (!polygon_init(&screen->polygon, occluder->polygon_px, occluder->polygon_count))
+        return error_set(err, ERR_MEMORY, "no memory for the outline of %s", occluder->name);
+    screen->bounds_px = polygon_bounds(&screen->polygon, camera->width_px, camera->height_px);
+    size_t width = (size_t)(screen->bounds_px.x1 - screen->bounds_px.x0) + 1;
+    screen->samples = malloc(width * sizeof *screen->samples);
+    screen->inside = malloc(width * sizeof *screen->inside);
+    if (!screen->samples || !screen->inside)
+        return error_set(err, ERR_MEMORY, "no memory for the outline of %s", occluder->name);
+    struct vec3 towards = vec3_sub(occluder->foot_m, world_from_camera.translation);
+    towards.z = 0;
+    double distance_m = vec3_norm(towards);
+    if (distance_m < 1e-6)
+        return error_set(err, ERR_INPUT, "occluder %s: stands right above or below the camera, so that no upright plane faces it",
+                         occluder->name);
+    screen->plane.normal = mat3_apply(mat3_transpose(world_from_camera.rotation), vec3_scale(towards, 1 / distance_m));
+    screen->plane.level_m = distance_m;
+    return true;
+}
+
+static bool frame_init(struct frame *frame, const struct tracer *tracer, const struct camera *camera,
+                       struct pose world_from_camera, const struct plane *ground, const struct entity *entities,
+                       size_t entity_count, const struct occluder *occluders, size_t occluder_count, struct error *err)
+{
+    size_t width = (size_t)camera->width_px;
+    frame->rays = (struct rays){ .camera = camera, .in = camera_intrinsics(camera), .pinhole = camera_is_pinhole(camera),
+                                 .row = malloc(width * sizeof *frame->rays.row),
+                                 .state = malloc(width * sizeof *frame->rays.state) };
+    frame->entities = entities;
+    frame->casts = calloc(entity_count + 1, sizeof *frame->casts);
+    frame->screens = calloc(occluder_count + 1, sizeof *frame->screens);
+    frame->range_m = malloc(width * sizeof *frame->range_m);
+    frame->front = malloc(width * sizeof *frame->front);
+    frame->counts = calloc(entity_count * (entity_count + occluder_count) + 1, sizeof *frame->counts);
+    if (!frame->rays.row || !frame->rays.state || !frame->casts || !frame->screens || !frame->range_m || !frame->front ||
+        !frame->counts)
+        return error_set(err, ERR_MEMORY, "no memory for the labels of a frame");
+    frame->ground.normal = mat3_apply(mat3_transpose(world_from_camera.rotation), ground->normal);
+    frame->ground.level_m = ground->offset_m - vec3_dot(ground->normal, world_from_camera.translation);
+    frame->cast_count = entity_count;
+    for (size_t i = 0; i < entity_count; i++)
+        if (!cast_init(&frame->casts[i], tracer, camera, world_from_camera, &entities[i], err)) return false;
+    frame->screen_count = occluder_count;
+    for (size_t i = 0; i < occluder_count; i++)
+        if (!screen_init(&frame->screens[i], camera, world_from_camera, &occluders[i], err)) return false;
+    return occluder_count == 0 || image_init(&frame->ahead, camera->width_px, camera->height_px, 1, PIXEL_F32, err);
+}
+
+static void frame_release(struct frame *frame)
+{
+    for (size_t i = 0; i < frame->cast_count; i++) {
+        free(frame->casts[i].mask);
+        free(frame->casts[i].depth_m);
+    }
+    for (size_t i = 0; i < frame->screen_count; i++) {
+        polygon_release(&frame->screens[i].polygon);
+        free(frame->screens[i].samples);
+        free(frame->screens[i].inside);
+    }
+    free(frame->rays.row);
+    free(frame->rays.state);
+    free(frame->casts);
+    free(frame->screens);
+    free(frame->range_m);
+    free(frame->front);
+    free(frame->counts);
+    image_release(&frame->ahead);
+}
+
+/* Every entity's mask and depth in a row, and which is nearest. */
+static void trace_row(struct frame *frame, int y)
+{
+    for (int x = 0; x < frame->rays.camera->width_px; x++) {
+        frame->range_m[x] = INFINITY;
+        frame->front[x] = -1;
+    }
+    for (size_t i = 0; i < frame->cast_count; i++) {
+        struct cast *cast = &frame->casts[i];
+        struct rect r = cast->frame_px;
+        if (y < r.y0 || y >= r.y1) continue;
+        size_t at = (size_t)(y - r.y0) * (size_t)(r.x1 - r.x0);
+        for (int x = r.x0; x < r.x1; x++, at++) {
+            struct vec3 direction;
+            double range;
+            cast->depth_m[at] = NAN;
+            if (!row_ray(&frame->rays, &direction, x, y) || !cast_hit(cast, &range, direction)) continue;
+            cast->mask[at] = 1;
+            cast->depth_m[at] = (float)(range * direction.z);
+            if (range < frame->range_m[x]) {
+                frame->range_m[x] = range;
+                frame->front[x] = (ptrdiff_t)i;
+            }
+        }
+    }
+    if (frame->screen_count > 0)
+        for (int x = 0; x < frame->rays.camera->width_px; x++) *image_f32(&frame->ahead, x, y) = (float)frame->range_m[x];
+}
+
+/* What screens put in front of a row's entities. */
+static void screen_row(struct frame *frame, int y)
+{
+    for (size_t k = 0; k < frame->screen_count; k++) {
+        struct screen *screen = &frame->screens[k];
+        struct rect r = screen->bounds_px;
+        if (y < r.y0 || y >= r.y1) continue;
+        polygon_row_centres(&screen->polygon, screen->inside, y, r.x0, r.x1);
+        for (int x = r.x0; x < r.x1; x++) {
+            if (!screen->inside[x - r.x0] || frame->front[x] < 0) continue;
+            double range = sight_range(screen->plane, frame->rays.row[x]);
+            if (range < frame->range_m[x]) {
+                frame->range_m[x] = range;
+                frame->front[x] = (ptrdiff_t)(frame->cast_count + k);
+            }
+        }
+    }
+}
+
+/* The finished row: whose pixel it is, and what every entity there lies behind. */
+static void label_row(struct frame *frame, struct frame_labels *labels, int y)
+{
+    size_t things = frame->cast_count + frame->screen_count;
+    for (size_t i = 0; i < frame->cast_count; i++) {
+        const struct cast *cast = &frame->casts[i];
+        struct rect r = cast->frame_px;
+        if (y < r.y0 || y >= r.y1) continue;
+        size_t row = (size_t)(y - r.y0) * (size_t)(r.x1 - r.x0);
+        struct entity_labels *out = &labels->entities[i];
+        for (int x = r.x0; x < r.x1; x++) {
+            size_t at = row + (size_t)(x - r.x0);
+            if (!cast->mask[at]) continue;
+            rect_add(&out->mask_px, &out->in_frame, x, y, 1);
+            frame->counts[i * things + (size_t)frame->front[x]]++;
+            if ((size_t)frame->front[x] != i) continue;
+            *image_u16(&labels->instance, x, y) = frame->entities[i].id;
+            *image_f32(&labels->depth, x, y) = cast->depth_m[at];
+            bool seen = out->pixels_visible++ > 0;
+            rect_add(&out->box_visible_px, &seen, x, y, 1);
+        }
+    }
+}
+
+/* The amodal pixels beyond the photograph's border. */
+static void trace_outside(const struct frame *frame, struct entity_labels *out, size_t index)
+{
+    const struct cast *cast = &frame->casts[index];
+    struct rect reach = cast->reach_px, photograph = { 0, 0, frame->rays.camera->width_px, frame->rays.camera->height_px };
+    bool any = out->in_frame;
+    out->box_amodal_px = out->mask_px;
+    out->pixels_total = out->pixels_amodal;
+    size_t outside = rect_area(reach) - rect_area(cast->frame_px);
+    if (outside == 0) return;
+    int stride = (int)ceil(sqrt((double)outside / OUTSIDE_RAYS));
+    for (int y = reach.y0; y < reach.y1; y += stride)
+        for (int x = reach.x0; x < reach.x1; x += stride) {
+            int mx = x + stride / 2, my = y + stride / 2;
+            struct vec3 direction;
+            double range;
+            if (rect_holds(photograph, mx, my) || !ray_at(&frame->rays, &direction, mx + 0.5, my + 0.5) ||
+                !cast_hit(cast, &range, direction))
+                continue;
+            rect_add(&out->box_amodal_px, &any, x, y, stride);
+            out->pixels_total += (int64_t)stride * stride;
+        }
+}
+
+static int by_pixels(const void *a, const void *b)
+{
+    const struct hider *x = a, *y = b;
+    return x->pixels != y->pixels ? (x->pixels < y->pixels) - (x->pixels > y->pixels) : (x->id > y->id) - (x->id < y->id);
+}
+
+static bool list_hiders(const struct frame *frame, struct entity_labels *out, size_t index, struct error *err)
+{
+    size_t things = frame->cast_count + frame->screen_count, n = 0;
+    const int64_t *counts = &frame->counts[index * things];
+    out->hiders = calloc(things, sizeof *out->hiders);
+    if (!out->hiders) return error_set(err, ERR_MEMORY, "no memory for the labels of a frame");
+    for (size_t k = 0; k < things; k++) {
+        if (k == index || counts[k] == 0) continue;
+        out->hiders[n++] = k < frame->cast_count
+            ? (struct hider){ frame->entities[k].id, frame->entities[k].name, counts[k] }
+            : (struct hider){ 0, frame->screens[k - frame->cast_count].occluder->name, counts[k] };
+    }
+    out->hider_count = n;
+    qsort(out->hiders, n, sizeof *out->hiders, by_pixels);
+    return true;
+}
+
+/* Keep of an entity's mask and depth what its pixels need. */
+static bool crop(const struct cast *cast, struct entity_labels *out, struct error *err)
+{
+    size_t w = (size_t)(out->mask_px.x1 - out->mask_px.x0), h = (size_t)(out->mask_px.y1 - out->mask_px.y0);
+    size_t stride = (size_t)(cast->frame_px.x1 - cast->frame_px.x0);
+    out->mask = malloc(w * h * sizeof *out->mask);
+    out->depth_m = malloc(w * h * sizeof *out->depth_m);
+    if (!out->mask || !out->depth_m) return error_set(err, ERR_MEMORY, "no memory for the labels of a frame");
+    for (size_t y = 0; y < h; y++) {
+        size_t from = ((size_t)(out->mask_px.y0 - cast->frame_px.y0) + y) * stride + (size_t)(out->mask_px.x0 - cast->frame_px.x0);
+        memcpy(out->mask + y * w, cast->mask + from, w * sizeof *out->mask);
+        memcpy(out->depth_m + y * w, cast->depth_m + from, w * sizeof *out->depth_m);
+    }
+    return true;
+}
+
+static bool finish_entity(const struct frame *frame, struct entity_labels *out, size_t index, struct error *err)
+{
+    size_t things = frame->cast_count + frame->screen_count;
+    for (size_t k = 0; k < things; k++) out->pixels_amodal += frame->counts[index * things + k];
+    trace_outside(frame, out, index);
+    out->visible_fraction = out->pixels_amodal > 0 ? (double)out->pixels_visible / (double)out->pixels_amodal : 0;
+    out->truncation = out->pixels_total > 0 ? 1 - (double)out->pixels_amodal / (double)out->pixels_total : 1;
+    if (!out->in_frame) return true;
+    return list_hiders(frame, out, index, err) && crop(&frame->casts[index], out, err);
+}
+
+/* Range of the nearest entity whose edge can reach a pixel. */
+static double ahead_m(const struct frame *frame, int x, int y)
+{
+    float near = *image_f32(&frame->ahead, x, y);
+    if (isfinite(near)) return (double)near;
+    int w = frame->rays.camera->width_px, h = frame->rays.camera->height_px;
+    for (int v = y > EDGE_PX ? y - EDGE_PX : 0; v <= y + EDGE_PX && v < h; v++)
+        for (int u = x > EDGE_PX ? x - EDGE_PX : 0; u <= x + EDGE_PX && u < w; u++)
+            near = fminf(near, *image_f32(&frame->ahead, u, v));
+    return (double)near;
+}
+
+static uint8_t share(uint64_t hidden_samples)
+{
+    return (uint8_t)lround(255.0 * (64 - __builtin_popcountll(hidden_samples)) / 64);
+}
+
+/* What of entities and ground the screens leave, as shares of a pixel. */
+static bool share_screens(struct frame *frame, struct frame_labels *labels, struct error *err)
+{
+    int width = frame->rays.camera->width_px, height = frame->rays.camera->height_px;
+    if (!image_init(&labels->visible, width, height, 1, PIXEL_U8, err) ||
+        !image_init(&labels->receiver, width, height, 1, PIXEL_U8, err))
+        return false;
+    memset(labels->visible.data, 255, image_size(&labels->visible));
+    memset(labels->receiver.data, 255, image_size(&labels->receiver));
+    uint64_t *hidden = calloc((size_t)width * 2, sizeof *hidden), *covered = hidden + width;
+    if (!hidden) return error_set(err, ERR_MEMORY, "no memory for the labels of a frame");
+    for (int y = 0; y < height; y++) {
+        bool any = false;
+        rays_begin_row(&frame->rays);
+        for (size_t k = 0; k < frame->screen_count; k++) {
+            struct screen *screen = &frame->screens[k];
+            struct rect r = screen->bounds_px;
+            if (y < r.y0 || y >= r.y1) continue;
+            any = true;
+            polygon_row_samples(&screen->polygon, screen->samples, y, r.x0, r.x1);
+            for (int x = r.x0; x < r.x1; x++) {
+                uint64_t samples = screen->samples[x - r.x0];
+                struct vec3 direction;
+                if (!samples || !row_ray(&frame->rays, &direction, x, y)) continue;
+                double range = sight_range(screen->plane, direction), entity = ahead_m(frame, x, y);
+                if (isfinite(entity) && range < entity) hidden[x] |= samples;
+                double ground = sight_range(frame->ground, direction);
+                if (isfinite(ground) && range < ground) covered[x] |= samples;
+            }
+        }
+        if (!any) continue;
+        for (int x = 0; x < width; x++) {
+            *image_u8(&labels->visible, x, y) = share(hidden[x]);
+            *image_u8(&labels->receiver, x, y) = share(covered[x]);
+            hidden[x] = covered[x] = 0;
+        }
+    }
+    free(hidden);
+    return true;
+}
+
+bool trace_frame(struct frame_labels *labels, struct tracer *tracer, const struct camera *camera,
+                 struct pose world_from_camera, const struct plane *ground, const struct entity *entities,
+                 size_t entity_count, const struct occluder *occluders, size_t occluder_count, struct error *err)
+{
+    struct frame frame = { 0 };
+    struct frame_labels out = { 0 };
+    bool ok = false;
+    if (!frame_init(&frame, tracer, camera, world_from_camera, ground, entities, entity_count, occluders, occluder_count, err) ||
+        !image_init(&out.instance, camera->width_px, camera->height_px, 1, PIXEL_U16, err) ||
+        !image_init(&out.depth, camera->width_px, camera->height_px, 1, PIXEL_F32, err))
+        goto out;
+    out.entities = calloc(entity_count + 1, sizeof *out.entities);
+    if (!out.entities) {
+        error_set(err, ERR_MEMORY, "no memory for the labels of a frame");
+        goto out;
+    }
+    out.entity_count = entity_count;
+    for (int y = 0; y < camera->height_px; y++) {
+        for (int x = 0; x < camera->width_px; x++) *image_f32(&out.depth, x, y) = NAN;
+        rays_begin_row(&frame.rays);
+        trace_row(&frame, y);
+        screen_row(&frame, y);
+        label_row(&frame, &out, y);
+    }
+    for (size_t i = 0; i < entity_count; i++)
+        if (!finish_entity(&frame, &out.entities[i], i, err)) goto out;
+    if (occluder_count > 0 && !share_screens(&frame, &out, err)) goto out;
+    *labels = out;
+    ok = true;
+out:
+    if (!ok) frame_labels_release(&out);
+    frame_release(&frame);
+    return ok;
+}
+
+void frame_labels_release(struct frame_labels *labels)
+{
+    image_release(&labels->instance);
+    image_release(&labels->depth);
+    image_release(&labels->visible);
+    image_release(&labels->receiver);
+    for (size_t i = 0; i < labels->entity_count; i++) {
+        free(labels->entities[i].hiders);
+        free(labels->entities[i].mask);
+        free(labels->entities[i].depth_m);
+    }
+    free(labels->entities);
+    *labels = (struct frame_labels){ 0 };
+}
