@@ -137,12 +137,12 @@ bool sun_position(struct sun_position *sun, struct utc_time utc, double dut1_s, 
     if (utc.year < 1960 || utc.year > 2099)
         return error_set(err, ERR_INPUT, "the sun's place is known for the years 1960 to 2099, not for %d", utc.year);
     if (!(fabs(place.latitude_rad) <= M_PI / 2 && isfinite(place.longitude_rad) && isfinite(place.height_m)))
-        return error_set(err, ERR_INPUT, "the sun cannot be seen from latitude %.9g, longitude %.9g deg, height %.9g m; "
+        return error_set(err, ERR_INPUT, "no place has latitude %.9g, longitude %.9g deg, height %.9g m; "
                          "latitude is -90 to 90 deg", place.latitude_rad / RAD_FROM_DEG,
                          place.longitude_rad / RAD_FROM_DEG, place.height_m);
     if (!(air.pressure_hpa >= 0 && air.pressure_hpa < 2000 && air.temperature_c > -150 && air.temperature_c < 150))
-        return error_set(err, ERR_INPUT, "air of %.9g hPa and %.9g deg C is none that light comes through; "
-                         "usual are 1010 hPa and 10 deg C", air.pressure_hpa, air.temperature_c);
+        return error_set(err, ERR_INPUT, "no air has %.9g hPa and %.9g deg C; usual are 1010 hPa and 10 deg C",
+                         air.pressure_hpa, air.temperature_c);
     double day, fraction, origins;
     if (!isfinite(dut1_s) || eraDtf2d("UTC", utc.year, utc.month, utc.day, utc.hour, utc.minute, utc.second,
                                       &day, &fraction) < 0)

@@ -30,5 +30,24 @@ tests_gen_scene_test_SOURCES = %D%/gen/scene.c %D%/tap.h
 nodist_EXTRA_tests_gen_scene_test_SOURCES = dummy.cxx
 tests_gen_scene_test_LDADD = $(GEN_LIBS)
 EXTRA_DIST += %D%/input
+check_PROGRAMS += tests/gen/ground.test
+tests_gen_ground_test_SOURCES = %D%/gen/ground.c %D%/tap.h
+nodist_EXTRA_tests_gen_ground_test_SOURCES = dummy.cxx
+tests_gen_ground_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/entity.test
+tests_gen_entity_test_SOURCES = %D%/gen/entity.c %D%/tap.h
+nodist_EXTRA_tests_gen_entity_test_SOURCES = dummy.cxx
+tests_gen_entity_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/place.test
+tests_gen_place_test_SOURCES = %D%/gen/place.c %D%/tap.h
+nodist_EXTRA_tests_gen_place_test_SOURCES = dummy.cxx
+tests_gen_place_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/sun.test
+tests_gen_sun_test_SOURCES = %D%/gen/sun.c %D%/tap.h
+nodist_EXTRA_tests_gen_sun_test_SOURCES = dummy.cxx
+tests_gen_sun_test_LDADD = $(GEN_LIBS)
 
 TESTS += $(check_PROGRAMS) $(dist_check_SCRIPTS)
