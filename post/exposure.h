@@ -1,0 +1,32 @@
+/* How bright the render must be to belong into the photograph. */
+#ifndef STAFFAGE_POST_EXPOSURE_H
+#define STAFFAGE_POST_EXPOSURE_H
+
+#include "lib/error.h"
+#include "lib/image.h"
+#include "lib/view.h"
+
+#include <stdbool.h>
+
+struct exposure {
+    double k[3];        /* linear photograph value per unit of radiance, for R, G and B */
+    bool fitted;
+    struct rect patch_px; /* of the fit */
+    double median[3];   /* of the fit: the patch's linear values */
+};
+
+struct exposure exposure_given(double k);
+
+/* Fit to a patch of unshadowed ground: its median over the radiance of the rendered ground,
+ * channel by channel (white_balance) or one k by luminance.
+ * In:  photograph (U8, 3 channels, sRGB)
+ * Err: ERR_INPUT: the patch lies outside, is saturated in more than 1 % of its pixels, is
+ *      black, or is not one surface in one light (its 90th percentile of luminance is more
+ *      than 4 times the 10th); or the ground_radiance is not positive */
+bool exposure_fit(struct exposure *exposure, const struct image *photograph, struct rect patch_px,
+                  const double ground_radiance[3], bool white_balance, struct error *err);
+
+/* As JSON, for people and for the next fit. */
+bool exposure_write(const char *path, const struct exposure *exposure, struct error *err);
+
+#endif

@@ -1,0 +1,105 @@
+#include "post/input.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define HALF_MAX 65504.0f
+
+static const char *type_name(enum pixel_type type)
+{
+    return type == PIXEL_U8 ? "8-bit" : type == PIXEL_U16 ? "16-bit" : "float";
+}
+
+bool input_image(struct image *image, const char *path, int width_px, int height_px, int channels,
+                 enum pixel_type type, struct error *err)
+{
+    struct image read;
+    if (!image_read(&read, path, err)) return false;
+    if (read.width_px != width_px || read.height_px != height_px)
+        error_at(err, ERR_INPUT, path, 0, 0, "is %d x %d pixels: %d x %d would be right", read.width_px,
+                 read.height_px, width_px, height_px);
+    else if (read.channels != channels || read.type != type)
+        error_at(err, ERR_INPUT, path, 0, 0, "has %d %s channels: %d %s would be right", read.channels,
+                 type_name(read.type), channels, type_name(type));
+    if (err->code != ERR_OK) {
+        image_release(&read);
+        return false;
+    }
+    *image = read;
+    return true;
+}
+
+bool input_pass(struct image *pass, const char *path, int width_px, int height_px, struct error *err)
+{
+    struct image read;
+    if (!input_image(&read, path, width_px, height_px, 4, PIXEL_F32, err)) return false;
+    float *v = read.data;
+    size_t n = (size_t)width_px * (size_t)height_px * 4;
+    for (size_t i = 0; i < n; i++) {
+        if (isnan(v[i])) {
+            size_t at = i / 4;
+            image_release(&read);
+            return error_at(err, ERR_RENDER, path, 0, 0, "pixel %zu,%zu is not a number: render it again",
+                            at % (size_t)width_px, at / (size_t)width_px);
+        }
+        float largest = i % 4 == 3 ? 1 : HALF_MAX;
+        v[i] = v[i] < 0 ? 0 : v[i] > largest ? largest : v[i];
+    }
+    *pass = read;
+    return true;
+}
+
+static bool same_aspect(const struct image *image, int width_px, int height_px)
+{
+    double height = (double)image->height_px * width_px / image->width_px;
+    return fabs(height - height_px) <= 1;
+}
+
+/* The colour channels alone. */
+static bool keep_rgb(struct image *rgb, const struct image *in, struct error *err)
+{
+    if (!image_init(rgb, in->width_px, in->height_px, 3, PIXEL_U8, err)) return false;
+    size_t n = (size_t)in->width_px * (size_t)in->height_px, stride = (size_t)in->channels;
+    const uint8_t *from = in->data;
+    uint8_t *to = rgb->data;
+    for (size_t i = 0; i < n; i++)
+        for (size_t c = 0; c < 3; c++) *to++ = from[i * stride + (stride >= 3 ? c : 0)];
+    return true;
+}
+
+bool input_photograph(struct image *rgb, const char *path, int width_px, int height_px, struct error *err)
+{
+    struct image stored, linear = { 0 };
+    if (!image_read(&stored, path, err)) return false;
+    bool ok = false, scaled = stored.width_px != width_px || stored.height_px != height_px;
+    if (scaled && !same_aspect(&stored, width_px, height_px)) {
+        error_at(err, ERR_INPUT, path, 0, 0, "is %d x %d pixels: not in proportion to the scene's %d x %d",
+                 stored.width_px, stored.height_px, width_px, height_px);
+        goto out;
+    }
+    if (stored.type == PIXEL_F32) {
+        error_at(err, ERR_INPUT, path, 0, 0, "is a float image: a photograph has 8 or 16 bits a channel");
+        goto out;
+    }
+    if (!scaled && stored.type == PIXEL_U8) {
+        if (stored.channels == 3) {
+            *rgb = stored;
+            return true;
+        }
+        ok = keep_rgb(rgb, &stored, err);
+        goto out;
+    }
+    if (!image_linear_from_srgb(&linear, &stored, err)) goto out;
+    image_release(&stored);
+    if (scaled) {
+        struct image small;
+        if (!image_resize(&small, &linear, width_px, height_px, err)) goto out;
+        image_release(&linear);
+        linear = small;
+    }
+    ok = image_srgb_from_linear(rgb, &linear, err);
+out:
+    image_release(&linear);
+    image_release(&stored);
+    return ok;
+}

@@ -1,0 +1,68 @@
+#include "post/exposure.h"
+
+#include "tests/tap.h"
+
+#define W 20
+#define H 10
+
+static uint8_t pixels[W * H * 3];
+
+static void paint(int x0, int x1, uint8_t r, uint8_t g, uint8_t b)
+{
+    for (int y = 0; y < H; y++)
+        for (int x = x0; x < x1; x++) memcpy(pixels + 3 * (y * W + x), (uint8_t[]){ r, g, b }, 3);
+}
+
+static void refuses(const struct image *photograph, struct rect patch, const double radiance[3], const char *text)
+{
+    struct error err = ERROR_NONE;
+    struct exposure e;
+    bool refused = !exposure_fit(&e, photograph, patch, radiance, true, &err);
+    OK(refused && err.code == ERR_INPUT && !strcmp(err.text, text), "refused: %s", err.text);
+}
+
+int main(void)
+{
+    struct image photograph = { W, H, 3, PIXEL_U8, pixels };
+    struct error err = ERROR_NONE;
+    struct exposure e;
+    const double radiance[3] = { 0.1, 0.2, 0.4 };
+    const struct rect patch = { 0, 0, 10, 10 };
+
+    /* sRGB 188, 137, 99 are 0.50289, 0.25016, 0.12477 in linear light (IEC 61966-2-1) */
+    paint(0, 10, 188, 137, 99);
+    paint(10, 20, 255, 255, 255);
+    paint(0, 2, 160, 120, 90);
+    paint(2, 4, 210, 150, 120);
+    if (!OK(exposure_fit(&e, &photograph, patch, radiance, true, &err), "an even patch is fitted")) return tap_done();
+    NEAR(e.k[0], 5.0289, 1e-3, "red: median 0.50289 / 0.1, whatever a fifth of the pixels on either side are");
+    NEAR(e.k[1], 1.2508, 1e-3, "green: 0.25016 / 0.2");
+    NEAR(e.k[2], 0.31193, 1e-3, "blue: 0.12477 / 0.4");
+    OK(exposure_fit(&e, &photograph, patch, radiance, false, &err), "without white balance");
+    /* Rec.709 luminance 0.29484 of the patch, 0.19318 of the ground */
+    NEAR(e.k[0], 1.52625, 1e-3, "one k by luminance: 0.29484 / 0.19318");
+    OK(e.k[0] == e.k[1] && e.k[1] == e.k[2], "for all channels");
+
+    e = exposure_given(0.7);
+    OK(e.k[0] == 0.7 && e.k[1] == 0.7 && e.k[2] == 0.7 && !e.fitted, "a given exposure is taken as it is");
+
+    refuses(&photograph, (struct rect){ 15, 0, 21, 5 }, radiance,
+            "exposure patch 15,0 to 21,5: lies outside the picture of 20 x 10 pixels, or is empty");
+    refuses(&photograph, (struct rect){ 5, 5, 5, 8 }, radiance,
+            "exposure patch 5,5 to 5,8: lies outside the picture of 20 x 10 pixels, or is empty");
+    refuses(&photograph, (struct rect){ 4, 0, 14, 10 }, radiance,
+            "exposure patch 4,0 to 14,10: 40.0 % of it is saturated: choose a patch of evenly lit ground, or give the exposure");
+    refuses(&photograph, patch, (double[]){ 0.1, 0, 0.1 },
+            "the rendered ground has no radiance (0.1 0 0.1): no exposure can be fitted to it");
+    paint(0, 10, 137, 137, 137); /* 0.25016 */
+    paint(0, 3, 50, 50, 50);     /* 0.03190: less than an eighth, on three tenths */
+    refuses(&photograph, patch, radiance,
+            "exposure patch 0,0 to 10,10: its bright parts are 7.8 times as bright as its dark ones: choose a patch of evenly lit ground");
+    paint(0, 10, 0, 0, 0);
+    refuses(&photograph, patch, radiance,
+            "exposure patch 0,0 to 10,10: is black: choose a patch of evenly lit ground, or give the exposure");
+    paint(0, 10, 128, 128, 128);
+    memset(pixels, 255, 3);
+    OK(exposure_fit(&e, &photograph, patch, radiance, true, &err), "one pixel of a hundred may be saturated");
+    return tap_done();
+}

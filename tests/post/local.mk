@@ -1,0 +1,35 @@
+# Checks of staffage-post's modules.
+check_PROGRAMS += tests/post/exposure.test
+tests_post_exposure_test_SOURCES = %D%/exposure.c tests/tap.h
+nodist_EXTRA_tests_post_exposure_test_SOURCES = dummy.cxx
+tests_post_exposure_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/labels.test
+tests_post_labels_test_SOURCES = %D%/labels.c tests/tap.h
+nodist_EXTRA_tests_post_labels_test_SOURCES = dummy.cxx
+tests_post_labels_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/mask.test
+tests_post_mask_test_SOURCES = %D%/mask.c tests/tap.h
+nodist_EXTRA_tests_post_mask_test_SOURCES = dummy.cxx
+tests_post_mask_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/transfer_alpha.test
+tests_post_transfer_alpha_test_SOURCES = %D%/transfer_alpha.c tests/tap.h
+nodist_EXTRA_tests_post_transfer_alpha_test_SOURCES = dummy.cxx
+tests_post_transfer_alpha_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/transfer_layers.test
+tests_post_transfer_layers_test_SOURCES = %D%/transfer_layers.c tests/tap.h
+nodist_EXTRA_tests_post_transfer_layers_test_SOURCES = dummy.cxx
+tests_post_transfer_layers_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/transfer_ratio.test
+tests_post_transfer_ratio_test_SOURCES = %D%/transfer_ratio.c tests/tap.h
+nodist_EXTRA_tests_post_transfer_ratio_test_SOURCES = dummy.cxx
+tests_post_transfer_ratio_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/transfer_threshold.test
+tests_post_transfer_threshold_test_SOURCES = %D%/transfer_threshold.c tests/tap.h
+nodist_EXTRA_tests_post_transfer_threshold_test_SOURCES = dummy.cxx
+tests_post_transfer_threshold_test_LDADD = $(POST_LIBS)
