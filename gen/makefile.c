@@ -1,0 +1,151 @@
+#include "gen/makefile.h"
+
+#include "lib/file.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const pass_names[PASS_COUNT] = { "object", "plane", "shadow" };
+
+const char *pass_name(int pass)
+{
+    return pass_names[pass];
+}
+
+static const char head[] =
+    "# Written by staffage-gen. Run inside this folder: make -k -j2 [render|post]\n"
+    "STAFFAGE_POVRAY ?= staffage-povray\n"
+    "STAFFAGE_POST ?= staffage-post\n"
+    "MAKEFLAGS += --no-builtin-rules\n"
+    ".SUFFIXES:\n"
+    ".PHONY: all render post\n"
+    "all: post\n"
+    "TEMPLATES := $(wildcard templates/*.inc)\n";
+
+/* POV-Ray 3.7 reads the first section without effect (its parser leaves the value unset), so
+ * staffage-povray confines the process as well; a POV-Ray that is mended honours it. */
+static const char povray_conf[] =
+    "[File I/O Security]\n"
+    "restricted\n"
+    "[Shellout Security]\n"
+    "forbidden\n"
+    "[Permitted Paths]\n"
+    "read* = .\n"
+    "read+write* = frames\n";
+
+static bool is_frame_name(const char *name)
+{
+    return name[0] && strspn(name, "0123456789") == strlen(name);
+}
+
+/* Words that neither make nor a shell would take for anything else. */
+static bool is_options(const char *options)
+{
+    return strspn(options, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-. ") == strlen(options);
+}
+
+static void write_pass(FILE *f, const struct makefile_frame *frame, int pass)
+{
+    const char *options = frame->options[pass] ? frame->options[pass] : "";
+    fprintf(f,
+            "frames/%1$s/%2$s.exr: frames/%1$s/%2$s.pov frames/%1$s/frame.json $(TEMPLATES)\n"
+            "\t@$(STAFFAGE_POVRAY) frames/%1$s/%2$s %3$d %4$d %5$s\n"
+            "\t@echo staffage: pass %1$s %2$s\n",
+            frame->name, pass_names[pass], frame->width_px, frame->height_px, options);
+}
+
+static void write_frame(FILE *f, const struct makefile_frame *frame)
+{
+    fprintf(f, "\npost: rgb/%s.png\n", frame->name);
+    if (!frame->empty) {
+        fprintf(f, "render:");
+        for (int p = 0; p < PASS_COUNT; p++) fprintf(f, " frames/%s/%s.exr", frame->name, pass_names[p]);
+        fprintf(f, "\n");
+        for (int p = 0; p < PASS_COUNT; p++) write_pass(f, frame, p);
+    }
+    fprintf(f, "rgb/%1$s.png: frames/%1$s/frame.json", frame->name);
+    if (!frame->empty)
+        for (int p = 0; p < PASS_COUNT; p++) fprintf(f, " frames/%s/%s.exr", frame->name, pass_names[p]);
+    fprintf(f, "\n\t@$(STAFFAGE_POST) . --frame %1$s\n\t@echo staffage: frame %1$s\n", frame->name);
+}
+
+static bool check_frames(const struct makefile_frame *frames, size_t frame_count, struct error *err)
+{
+    for (size_t i = 0; i < frame_count; i++) {
+        if (!is_frame_name(frames[i].name))
+            return error_set(err, ERR_BUG, "makefile: the frame name \"%s\" is not all digits", frames[i].name);
+        if (frames[i].empty) continue;
+        if (frames[i].width_px < 1 || frames[i].height_px < 1)
+            return error_set(err, ERR_BUG, "makefile: frame %s: passes of %d x %d pixels", frames[i].name,
+                             frames[i].width_px, frames[i].height_px);
+        for (int p = 0; p < PASS_COUNT; p++)
+            if (frames[i].options[p] && !is_options(frames[i].options[p]))
+                return error_set(err, ERR_BUG, "makefile: frame %s: option \"%s\" is not a plain word",
+                                 frames[i].name, frames[i].options[p]);
+    }
+    return true;
+}
+
+static bool write_in(const char *out_folder, const char *name, const void *data, size_t size, struct error *err)
+{
+    char *path = string_format("%s/%s", out_folder, name);
+    char *folder = path ? path_folder(path) : NULL;
+    bool ok = folder ? folder_make(folder, err) && file_write_if_changed(path, data, size, err)
+                     : error_set(err, ERR_MEMORY, "no memory for a path");
+    free(folder);
+    free(path);
+    return ok;
+}
+
+static bool copy_template(const char *out_folder, const char *templates_folder, const char *name, struct error *err)
+{
+    char *from = string_format("%s/%s", templates_folder, name);
+    char *to = string_format("templates/%s", name);
+    char *data = NULL;
+    size_t size;
+    bool ok = false;
+    if (!from || !to) error_set(err, ERR_MEMORY, "no memory for a path");
+    else ok = file_read(&data, &size, from, err) && write_in(out_folder, to, data, size, err);
+    free(data);
+    free(to);
+    free(from);
+    return ok;
+}
+
+static bool copy_templates(const char *out_folder, const char *templates_folder, struct error *err)
+{
+    DIR *folder = opendir(templates_folder);
+    if (!folder)
+        return error_at(err, ERR_IO, templates_folder, 0, 0, "the templates cannot be read: %s", strerror(errno));
+    bool ok = true;
+    for (struct dirent *entry; ok && (entry = readdir(folder));) {
+        const char *ending = strrchr(entry->d_name, '.');
+        if (ending && strcmp(ending, ".inc") == 0)
+            ok = copy_template(out_folder, templates_folder, entry->d_name, err);
+    }
+    closedir(folder);
+    return ok;
+}
+
+bool makefile_write(const char *out_folder, const char *templates_folder,
+                    const struct makefile_frame *frames, size_t frame_count, struct error *err)
+{
+    if (!check_frames(frames, frame_count, err)) return false;
+    char *text = NULL;
+    size_t size = 0;
+    FILE *f = open_memstream(&text, &size);
+    if (!f) return error_set(err, ERR_MEMORY, "no memory for the makefile");
+    fputs(head, f);
+    for (size_t i = 0; i < frame_count; i++) write_frame(f, &frames[i]);
+    bool ok = !ferror(f);
+    if (fclose(f) != 0) ok = false;
+    if (!ok) error_set(err, ERR_MEMORY, "no memory for the makefile");
+    ok = ok && copy_templates(out_folder, templates_folder, err) &&
+         write_in(out_folder, "frames/home/.povray/3.7/povray.conf", povray_conf, sizeof povray_conf - 1, err) &&
+         write_in(out_folder, "Makefile", text, size, err);
+    free(text);
+    return ok;
+}
