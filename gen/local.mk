@@ -8,8 +8,10 @@ gen_libgen_a_SOURCES = \
   %D%/receiver.c %D%/receiver.h \
   %D%/sdl.c %D%/sdl.h \
   %D%/entity.c %D%/entity.h %D%/ground.c %D%/ground.h \
-  %D%/nearest.c %D%/nearest.h %D%/place.cpp %D%/place.h %D%/scene.c %D%/scene.h %D%/scene_keys.c %D%/scene_keys.h \
-  %D%/scene_pose.c %D%/scene_pose.h %D%/schema.c %D%/schema.h %D%/sun.c %D%/sun.h %D%/trace.h \
+  %D%/place.cpp %D%/place.h %D%/sun.c %D%/sun.h %D%/trace.h
+gen_libgen_a_SOURCES += \
+  %D%/nearest.c %D%/nearest.h %D%/scene.c %D%/scene.h %D%/scene_keys.c %D%/scene_keys.h \
+  %D%/scene_pose.c %D%/scene_pose.h %D%/schema.c %D%/schema.h %D%/schema_words.c %D%/schema_words.h \
   %D%/yaml.c %D%/yaml.h
 gen_libgen_a_SOURCES += %D%/material.h %D%/model.h %D%/texture.h
 gen_libgen_a_SOURCES += \

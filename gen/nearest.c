@@ -34,6 +34,7 @@ void nearest_offer(struct nearest *nearest, const char *text, const char *candid
     size_t a = strlen(text), b = strlen(candidate);
     if (a > LENGTH_MAX || b > LENGTH_MAX) return;
     size_t distance = edit_distance(text, a, candidate, b), near = b < 6 ? 1 : b / 3;
+    if (!strncmp(candidate, text, a) && candidate[a] == '_') distance = 1; /* the unit was left out */
     if (distance > near || (nearest->name && distance >= nearest->distance)) return;
     *nearest = (struct nearest){ candidate, distance };
 }

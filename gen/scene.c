@@ -107,7 +107,8 @@ static bool read_lens(const struct reading *r, struct camera *camera, const stru
     }
     int count = camera_model_param_count(model);
     if (params->count != (size_t)count)
-        return FAIL(r, params, "camera.params: %s takes %d numbers, found %zu", name, count, params->count);
+        return FAIL(r, params, "camera.params: %s takes %d numbers (%s), found %zu", name, count,
+                    camera_model_param_names(model), params->count);
     schema_numbers(camera->params, (size_t)count, params);
     struct camera_intrinsics k = camera_intrinsics(camera);
     if (!(k.fx_px > 0 && k.fy_px > 0))

@@ -1,11 +1,13 @@
 #include "gen/schema.h"
 
 #include "gen/nearest.h"
+#include "gen/schema_words.h"
 #include "gen/sun.h"
 #include "lib/file.h"
 #include "lib/image.h"
 
 #include <assert.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,14 +37,6 @@ static struct where where_item(const struct where *parent, size_t i)
     return w;
 }
 
-/* The last part of a path when the rest is `parent`, else NULL. */
-static const char *child_name(const char *path, const char *parent)
-{
-    size_t n = strlen(parent);
-    if (n && (strncmp(path, parent, n) || path[n++] != '.')) return NULL;
-    return strchr(path + n, '.') ? NULL : path + n;
-}
-
 static const struct schema_key *find(const struct schema *schema, const char *path)
 {
     for (size_t i = 0; i < schema->count; i++)
@@ -50,140 +44,29 @@ static const struct schema_key *find(const struct schema *schema, const char *pa
     return NULL;
 }
 
-/* What a value may be, in words. */
-
-static void print_limits(FILE *out, const struct schema_key *key)
+/* Record a message with its place in front. Returns false. */
+__attribute__((format(printf, 5, 6)))
+static bool report(const struct check *c, int line, int column, const struct where *where,
+                   const char *format, ...)
 {
-    if (!(key->min < key->max)) return;
-    if (isinf(key->max))
-        fprintf(out, key->above_min ? " above %g" : " of at least %g", key->min);
-    else
-        fprintf(out, key->above_min ? " above %.10g up to %.10g" : " from %.10g to %.10g", key->min, key->max);
-}
-
-static void print_list(FILE *out, int min, int max, const char *of)
-{
-    if (max && min == max)
-        fprintf(out, "list of %d %s", min, of);
-    else if (max)
-        fprintf(out, "list of %d to %d %s", min, max, of);
-    else if (min > 1)
-        fprintf(out, "list of at least %d %s", min, of);
-    else
-        fprintf(out, "list of %s", of);
-}
-
-static void print_choices(FILE *out, const struct schema_key *key)
-{
-    for (int i = 0; key->choice(i); i++) fprintf(out, "%s%s", i ? ", " : "", key->choice(i));
-}
-
-static void print_type(FILE *out, const struct schema_key *key, enum schema_type type)
-{
-    char of[48];
-    switch (type) {
-    case TYPE_MAPPING: fputs("mapping", out); break;
-    case TYPE_NAMED: fputs("names with a mapping each", out); break;
-    case TYPE_ITEMS: print_list(out, key->count_min, key->count_max, "mappings"); break;
-    case TYPE_NUMBER:
-        fputs("number", out);
-        print_limits(out, key);
-        break;
-    case TYPE_INTEGER:
-        fputs("integer", out);
-        print_limits(out, key);
-        break;
-    case TYPE_BOOLEAN: fputs("true or false", out); break;
-    case TYPE_CHOICE:
-        fputs("one of ", out);
-        print_choices(out, key);
-        break;
-    case TYPE_TEXT:
-        fputs("text", out);
-        if (key->count_max) fprintf(out, " of up to %d bytes", key->count_max);
-        break;
-    case TYPE_FILE: fputs("file", out); break;
-    case TYPE_TIME: fputs("time with offset", out); break;
-    case TYPE_COLOR: fputs("\"#rrggbb\"", out); break;
-    case TYPE_RANGE: fputs("\"first:end:step\"", out); break;
-    case TYPE_NUMBERS:
-        print_list(out, key->count_min, key->count_max, "numbers");
-        print_limits(out, key);
-        break;
-    case TYPE_INTEGERS:
-        print_list(out, key->count_min, key->count_max, "integers");
-        print_limits(out, key);
-        break;
-    case TYPE_CHOICES:
-        print_list(out, key->count_min, key->count_max, "of ");
-        print_choices(out, key);
-        break;
-    case TYPE_FILES: print_list(out, key->count_min, key->count_max, "files"); break;
-    case TYPE_ROWS:
-        snprintf(of, sizeof of, "lists of %d numbers", key->columns);
-        print_list(out, key->count_min, key->count_max, of);
-        break;
-    }
-}
-
-static void print_types(FILE *out, const struct schema_key *key)
-{
-    bool first = true;
-    for (unsigned bit = 1; bit <= TYPE_ROWS; bit <<= 1) {
-        if (!(key->types & bit)) continue;
-        if (!first) fputs(" or ", out);
-        print_type(out, key, (enum schema_type)bit);
-        first = false;
-    }
-}
-
-static void print_found(FILE *out, const struct yaml_node *node)
-{
-    double number;
-    bool boolean;
-    if (node->kind == YAML_MAPPING)
-        fputs("mapping", out);
-    else if (node->kind == YAML_SEQUENCE)
-        fprintf(out, "list of %zu", node->count);
-    else if (yaml_is_null(node))
-        fputs("nothing", out);
-    else if (yaml_number(&number, node) || yaml_boolean(&boolean, node))
-        fprintf(out, "%.80s", node->text);
-    else
-        fprintf(out, "\"%.80s\"", node->text);
-}
-
-/* Record what `print` writes, with the place in front. Returns false. */
-static bool report(const struct check *c, const struct yaml_node *node, const struct where *where, char *text)
-{
-    if (!text) return error_set(c->err, ERR_MEMORY, "no memory for a message");
-    error_at(c->err, ERR_INPUT, c->file, node->line, node->column, "%s%s%s", where->shown, *where->shown ? ": " : "",
-             text);
-    free(text);
-    return false;
+    struct words w = { .length = 0 };
+    va_list args;
+    if (*where->shown) words_add(&w, "%s: ", where->shown);
+    va_start(args, format);
+    words_vadd(&w, format, args);
+    va_end(args);
+    return error_at(c->err, ERR_INPUT, c->file, line, column, "%s", w.text);
 }
 
 static bool unexpected(const struct check *c, const struct schema_key *key, const struct where *where,
                        const struct yaml_node *node)
 {
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) return error_set(c->err, ERR_MEMORY, "no memory for a message");
-    fputs("expected ", out);
-    print_types(out, key);
-    fputs(", found ", out);
-    print_found(out, node);
-    if (yaml_is_null(node) && key->types & TYPE_COLOR) fputs(" (without quotes, # starts a comment)", out);
-    struct yaml_node bare = *node;
-    bare.plain = true;
-    double number;
-    if (node->kind == YAML_SCALAR && !node->plain && yaml_number(&number, &bare)) fputs(" in quotes", out);
-    fclose(out);
-    return report(c, node, where, text);
+    struct words type = words_type(key), found = words_found(node);
+    const char *hint = yaml_is_null(node) && key->types & TYPE_COLOR ? " (without quotes, # starts a comment)" : "";
+    return report(c, node->line, node->column, where, "expected %s, found %s%s", type.text, found.text, hint);
 }
 
-/* The same for an element of a list, whose type is the list's without "list of". */
+/* The same for an element of a list. */
 static bool unexpected_item(const struct check *c, const struct schema_key *key, enum schema_type type,
                             const struct where *list, size_t i, const struct yaml_node *item)
 {
@@ -193,68 +76,41 @@ static bool unexpected_item(const struct check *c, const struct schema_key *key,
     return unexpected(c, &element, &where, item);
 }
 
+/* Reads as "light: unknown sky ...": the key's name goes behind its parent's. */
 static bool unknown_choice(const struct check *c, const struct schema_key *key, const struct where *where,
                            const struct yaml_node *node)
 {
-    /* "light.sky" reads as: light: unknown sky */
     struct where parent = *where;
     char *dot = strrchr(parent.shown, '.');
-    if (dot)
-        *dot = 0;
-    else
-        *parent.shown = 0;
-    const char *dot_in_table = strrchr(key->path, '.');
-    const char *name = dot_in_table ? dot_in_table + 1 : key->path;
+    *(dot ? dot : parent.shown) = 0;
+    const char *name = strrchr(key->path, '.');
+    name = name ? name + 1 : key->path;
     struct nearest nearest = { NULL, 0 };
     for (int i = 0; key->choice(i); i++) nearest_offer(&nearest, node->text, key->choice(i));
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) return error_set(c->err, ERR_MEMORY, "no memory for a message");
-    fprintf(out, "unknown %s \"%.80s\" (", name, node->text);
-    if (nearest.name) {
-        fprintf(out, "did you mean \"%s\"?", nearest.name);
-    } else {
-        struct schema_key words = *key;
-        words.types &= ~(unsigned)TYPE_CHOICES;
-        words.types |= TYPE_CHOICE;
-        print_types(out, &words);
-    }
-    fputc(')', out);
-    fclose(out);
-    return report(c, node, &parent, text);
+    if (nearest.name)
+        return report(c, node->line, node->column, &parent, "unknown %s \"%.80s\" (did you mean \"%s\"?)", name, node->text,
+                      nearest.name);
+    struct schema_key single = *key;
+    if (single.types & TYPE_CHOICES) single.types = TYPE_CHOICE;
+    return report(c, node->line, node->column, &parent, "unknown %s \"%.80s\" (%s)", name, node->text, words_type(&single).text);
 }
 
 static bool unknown_key(const struct check *c, const struct where *where, const struct yaml_node *mapping, size_t i)
 {
     const char *name = mapping->keys[i].text, *elsewhere = NULL;
+    int line = mapping->keys[i].line, column = mapping->keys[i].column;
     struct nearest nearest = { NULL, 0 };
     for (size_t k = 0; k < c->schema->count; k++) {
-        const char *path = c->schema->keys[k].path, *sibling = child_name(path, where->table);
+        const char *path = c->schema->keys[k].path, *sibling = schema_child(path, where->table);
         if (sibling) nearest_offer(&nearest, name, sibling);
         const char *dot = strrchr(path, '.');
         if (!elsewhere && !strcmp(dot ? dot + 1 : path, name)) elsewhere = path;
     }
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) return error_set(c->err, ERR_MEMORY, "no memory for a message");
-    fprintf(out, "unknown key \"%.80s\" (", name);
-    if (nearest.name) {
-        fprintf(out, "did you mean \"%s\"?", nearest.name);
-    } else if (elsewhere) {
-        fprintf(out, "it belongs at %s", elsewhere);
-    } else {
-        fputs("known here: ", out);
-        for (size_t k = 0, n = 0; k < c->schema->count; k++) {
-            const char *sibling = child_name(c->schema->keys[k].path, where->table);
-            if (sibling) fprintf(out, "%s%s", n++ ? ", " : "", sibling);
-        }
-    }
-    fputc(')', out);
-    fclose(out);
-    struct yaml_node at_key = { .line = mapping->keys[i].line, .column = mapping->keys[i].column };
-    return report(c, &at_key, where, text);
+    if (nearest.name)
+        return report(c, line, column, where, "unknown key \"%.80s\" (did you mean \"%s\"?)", name, nearest.name);
+    if (elsewhere) return report(c, line, column, where, "unknown key \"%.80s\" (it belongs at %s)", name, elsewhere);
+    return report(c, line, column, where, "unknown key \"%.80s\" (known here: %s)", name,
+                  words_siblings(c->schema, where->table, NULL).text);
 }
 
 /* Values. */
@@ -294,16 +150,15 @@ static bool check_file(const struct check *c, const struct where *where, const s
     if (!path) return error_set(c->err, ERR_MEMORY, "no memory for a path");
     bool there = file_exists(path);
     free(path);
-    return there || report(c, node, where,
-                           string_format("there is no file \"%.300s\" (a path starts at the folder of this file)",
-                                         node->text));
+    return there || report(c, node->line, node->column, where,
+                           "there is no file \"%.300s\" (a path starts at the folder of this file)", node->text);
 }
 
 static bool check_time(const struct check *c, const struct where *where, const struct yaml_node *node)
 {
     struct utc_time utc;
     const char *wrong = utc_time_parse(&utc, node->text);
-    return !wrong || report(c, node, where, string_format("\"%.80s\": %s", node->text, wrong));
+    return !wrong || report(c, node->line, node->column, where, "\"%.80s\": %s", node->text, wrong);
 }
 
 static bool check_scalar(const struct check *c, const struct schema_key *key, const struct where *where,
@@ -399,53 +254,22 @@ static bool check_value(const struct check *c, const struct schema_key *key, con
     return unexpected(c, key, where, node);
 }
 
-static bool missing(const struct check *c, const struct schema_key *key, const char *name, const struct where *where,
-                    const struct yaml_node *mapping)
-{
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) return error_set(c->err, ERR_MEMORY, "no memory for a message");
-    fprintf(out, "key \"%s\" is missing (", name);
-    print_types(out, key);
-    fputc(')', out);
-    fclose(out);
-    return report(c, mapping, where, text);
-}
-
-/* Names of the mapping's keys of that presence: "a, b, c". NULL when memory ends. */
-static char *group_names(const struct schema *schema, const char *parent, enum schema_presence presence)
-{
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) return NULL;
-    for (size_t k = 0, n = 0; k < schema->count; k++) {
-        const char *name = child_name(schema->keys[k].path, parent);
-        if (name && schema->keys[k].presence == presence) fprintf(out, "%s%s", n++ ? ", " : "", name);
-    }
-    fclose(out);
-    return text;
-}
-
 static bool check_group(const struct check *c, const struct where *where, const struct yaml_node *mapping,
                         enum schema_presence presence)
 {
-    bool any = false;
-    const char *given[2] = { NULL, NULL };
-    for (size_t k = 0; k < c->schema->count; k++) {
-        const char *name = child_name(c->schema->keys[k].path, where->table);
-        if (!name || c->schema->keys[k].presence != presence) continue;
-        any = true;
-        if (yaml_get(mapping, name) && !given[1]) given[given[0] ? 1 : 0] = name;
+    const char *first = NULL;
+    for (size_t i = 0; i < mapping->count; i++) {
+        struct where below = where_key(where, mapping->keys[i].text, "");
+        if (find(c->schema, below.table)->presence != presence) continue;
+        if (first)
+            return report(c, mapping->keys[i].line, mapping->keys[i].column, where,
+                          "\"%s\" and \"%s\" exclude each other (give one of %s)", first, mapping->keys[i].text,
+                          words_siblings(c->schema, where->table, &presence).text);
+        first = mapping->keys[i].text;
     }
-    if (!any || (given[0] ? !given[1] : presence == AT_MOST_ONE_OF)) return true;
-    char *names = group_names(c->schema, where->table, presence);
-    if (!names) return error_set(c->err, ERR_MEMORY, "no memory for a message");
-    char *text = given[0] ? string_format("\"%s\" and \"%s\" exclude each other (give one of %s)", given[0], given[1], names)
-                          : string_format("one of %s is missing", names);
-    free(names);
-    return report(c, mapping, where, text);
+    if (first || presence == AT_MOST_ONE_OF) return true;
+    struct words names = words_siblings(c->schema, where->table, &presence);
+    return !names.length || report(c, mapping->line, mapping->column, where, "one of %s is missing", names.text);
 }
 
 static bool check_mapping(const struct check *c, const struct where *where, const struct yaml_node *mapping)
@@ -459,8 +283,9 @@ static bool check_mapping(const struct check *c, const struct where *where, cons
     }
     for (size_t k = 0; k < c->schema->count; k++) {
         const struct schema_key *key = &c->schema->keys[k];
-        const char *name = child_name(key->path, where->table);
-        if (name && key->presence == REQUIRED && !yaml_get(mapping, name)) return missing(c, key, name, where, mapping);
+        const char *name = schema_child(key->path, where->table);
+        if (name && key->presence == REQUIRED && !yaml_get(mapping, name))
+            return report(c, mapping->line, mapping->column, where, "key \"%s\" is missing (%s)", name, words_type(key).text);
     }
     return check_group(c, where, mapping, ONE_OF) && check_group(c, where, mapping, AT_MOST_ONE_OF);
 }
@@ -488,7 +313,7 @@ static bool fill_mapping(const struct schema *schema, const struct where *where,
 {
     for (size_t k = 0; k < schema->count; k++) {
         const struct schema_key *key = &schema->keys[k];
-        const char *name = child_name(key->path, where->table);
+        const char *name = schema_child(key->path, where->table);
         if (!name || !key->preset || yaml_get(mapping, name)) continue;
         struct yaml_node *value;
         if (!yaml_parse(&value, key->preset, strlen(key->preset), key->path, err)) return false;
@@ -514,34 +339,6 @@ bool schema_fill(const struct schema *schema, struct yaml_node *root, struct err
 {
     struct where top = { "", "" };
     return fill_mapping(schema, &top, root, err);
-}
-
-char *schema_text(const struct schema *schema)
-{
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) return NULL;
-    for (size_t k = 0; k < schema->count; k++) {
-        const struct schema_key *key = &schema->keys[k];
-        fprintf(out, "%s\t", key->path);
-        print_types(out, key);
-        fprintf(out, "\t%s\t", key->unit ? key->unit : "-");
-        if (key->presence == ONE_OF || key->presence == AT_MOST_ONE_OF) {
-            const char *dot = strrchr(key->path, '.');
-            char *parent = strndup(key->path, dot ? (size_t)(dot - key->path) : 0);
-            char *names = parent ? group_names(schema, parent, key->presence) : NULL;
-            if (names) fprintf(out, "%s of %s\n", key->presence == ONE_OF ? "one" : "at most one", names);
-            free(names);
-            free(parent);
-        } else {
-            fprintf(out, "%s\n", key->presence == REQUIRED ? "required" : key->preset ? key->preset : "none");
-        }
-    }
-    bool failed = ferror(out);
-    if (fclose(out) == 0 && !failed) return text;
-    free(text);
-    return NULL;
 }
 
 double schema_number(const struct yaml_node *node)

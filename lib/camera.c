@@ -2,18 +2,18 @@
 
 #include <string.h>
 
-static const struct { const char *name; int focals, params; } models[CAMERA_MODEL_COUNT] = {
-    [CAMERA_SIMPLE_PINHOLE] = { "SIMPLE_PINHOLE", 1, 3 },
-    [CAMERA_PINHOLE] = { "PINHOLE", 2, 4 },
-    [CAMERA_SIMPLE_RADIAL] = { "SIMPLE_RADIAL", 1, 4 },
-    [CAMERA_RADIAL] = { "RADIAL", 1, 5 },
-    [CAMERA_OPENCV] = { "OPENCV", 2, 8 },
-    [CAMERA_OPENCV_FISHEYE] = { "OPENCV_FISHEYE", 2, 8 },
-    [CAMERA_FULL_OPENCV] = { "FULL_OPENCV", 2, 12 },
-    [CAMERA_FOV] = { "FOV", 2, 5 },
-    [CAMERA_SIMPLE_RADIAL_FISHEYE] = { "SIMPLE_RADIAL_FISHEYE", 1, 4 },
-    [CAMERA_RADIAL_FISHEYE] = { "RADIAL_FISHEYE", 1, 5 },
-    [CAMERA_THIN_PRISM_FISHEYE] = { "THIN_PRISM_FISHEYE", 2, 12 },
+static const struct { const char *name; int focals, params; const char *param_names; } models[CAMERA_MODEL_COUNT] = {
+    [CAMERA_SIMPLE_PINHOLE] = { "SIMPLE_PINHOLE", 1, 3, "f, cx, cy" },
+    [CAMERA_PINHOLE] = { "PINHOLE", 2, 4, "fx, fy, cx, cy" },
+    [CAMERA_SIMPLE_RADIAL] = { "SIMPLE_RADIAL", 1, 4, "f, cx, cy, k" },
+    [CAMERA_RADIAL] = { "RADIAL", 1, 5, "f, cx, cy, k1, k2" },
+    [CAMERA_OPENCV] = { "OPENCV", 2, 8, "fx, fy, cx, cy, k1, k2, p1, p2" },
+    [CAMERA_OPENCV_FISHEYE] = { "OPENCV_FISHEYE", 2, 8, "fx, fy, cx, cy, k1, k2, k3, k4" },
+    [CAMERA_FULL_OPENCV] = { "FULL_OPENCV", 2, 12, "fx, fy, cx, cy, k1, k2, p1, p2, k3, k4, k5, k6" },
+    [CAMERA_FOV] = { "FOV", 2, 5, "fx, fy, cx, cy, omega" },
+    [CAMERA_SIMPLE_RADIAL_FISHEYE] = { "SIMPLE_RADIAL_FISHEYE", 1, 4, "f, cx, cy, k" },
+    [CAMERA_RADIAL_FISHEYE] = { "RADIAL_FISHEYE", 1, 5, "f, cx, cy, k1, k2" },
+    [CAMERA_THIN_PRISM_FISHEYE] = { "THIN_PRISM_FISHEYE", 2, 12, "fx, fy, cx, cy, k1, k2, p1, p2, k3, k4, sx1, sy1" },
 };
 
 const char *camera_model_name(enum camera_model model) { return models[model].name; }
@@ -29,6 +29,7 @@ bool camera_model_from_name(enum camera_model *model, const char *name)
 }
 
 int camera_model_param_count(enum camera_model model) { return models[model].params; }
+const char *camera_model_param_names(enum camera_model model) { return models[model].param_names; }
 
 struct camera_intrinsics camera_intrinsics(const struct camera *camera)
 {

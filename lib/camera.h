@@ -37,6 +37,8 @@ const char *camera_model_name(enum camera_model model);
 /* Out: *model. Returns false for an unknown name (no error is set). */
 bool camera_model_from_name(enum camera_model *model, const char *name);
 int camera_model_param_count(enum camera_model model);
+/* "fx, fy, cx, cy" and so on. */
+const char *camera_model_param_names(enum camera_model model);
 
 /* Focal lengths and principal point, whatever the model. */
 struct camera_intrinsics { double fx_px, fy_px, cx_px, cy_px; };
