@@ -50,4 +50,9 @@ tests_gen_sun_test_SOURCES = %D%/gen/sun.c %D%/tap.h
 nodist_EXTRA_tests_gen_sun_test_SOURCES = dummy.cxx
 tests_gen_sun_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/lib/view.test
+tests_lib_view_test_SOURCES = %D%/lib/view.c %D%/tap.h
+nodist_EXTRA_tests_lib_view_test_SOURCES = dummy.cxx
+tests_lib_view_test_LDADD = $(LIB_LIBS)
+
 TESTS += $(check_PROGRAMS) $(dist_check_SCRIPTS)
