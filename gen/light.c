@@ -138,25 +138,57 @@ static bool sun_of_scene(struct vec3 *direction, const struct scene *scene, stru
     return true;
 }
 
+/* Row by row over the upper half of the map. */
+static void fill_clear(struct image *sky, struct vec3 sun, double turbidity)
+{
+    struct clear_sky clear;
+    clear_sky_create(&clear, sun, turbidity);
+    for (int row = 0; row < SKY_HEIGHT / 2; row++)
+        for (int column = 0; column < SKY_WIDTH; column++) {
+            double rgb[3];
+            clear_sky_radiance(rgb, &clear, sky_direction(column, row));
+            for (int c = 0; c < 3; c++) image_f32(sky, column, row)[c] = (float)rgb[c];
+        }
+}
+
+static void fill_overcast(struct image *sky)
+{
+    for (int row = 0; row < SKY_HEIGHT / 2; row++)
+        for (int column = 0; column < SKY_WIDTH; column++)
+            for (int c = 0; c < 3; c++)
+                image_f32(sky, column, row)[c] = (float)(1 + 2 * sky_direction(column, row).z);
+}
+
+static void scale_sky(struct image *sky, double factor)
+{
+    size_t values = (size_t)SKY_WIDTH * (SKY_HEIGHT / 2) * 3;
+    for (size_t i = 0; i < values; i++) ((float *)sky->data)[i] *= (float)factor;
+}
+
+/* The clear sky's level illuminance / pi. Preetham's zenith is twice too bright beside its own
+ * sun; form and colour are taken from there, and the amount at a turbidity of 3 from the daylight
+ * that was measured (IES RP-21: 0.8 + 15.5 sqrt(sin h) klx under a clear sky). */
+static double measured_clear_sky(double sin_elevation)
+{
+    return (800 + 15500 * sqrt(sin_elevation)) / M_PI;
+}
+
 bool light_create(struct light *light, const struct scene *scene, struct error *err)
 {
     struct light made = { .has_sun = scene->sun != SUN_NONE };
     if (made.has_sun && !sun_of_scene(&made.sun_direction, scene, err)) return false;
     if (!image_init(&made.sky, SKY_WIDTH, SKY_HEIGHT, 3, PIXEL_F32, err)) return false;
 
-    struct clear_sky clear;
     if (scene->sky == SKY_CLEAR) {
-        clear_sky_create(&clear, made.sun_direction, scene->turbidity);
+        double at_turbidity_3[3];
+        fill_clear(&made.sky, made.sun_direction, 3);
+        sky_irradiance(at_turbidity_3, &made.sky);
+        fill_clear(&made.sky, made.sun_direction, scene->turbidity);
+        scale_sky(&made.sky, measured_clear_sky(made.sun_direction.z) / luminance(at_turbidity_3));
         sun_irradiance(made.sun_color, acos(made.sun_direction.z), scene->turbidity);
         for (int c = 0; c < 3; c++) made.sun_color[c] *= scene->sun_scale;
-    }
-    for (int row = 0; row < SKY_HEIGHT / 2; row++)
-        for (int column = 0; column < SKY_WIDTH; column++) {
-            struct vec3 d = sky_direction(column, row);
-            double rgb[3] = { 1 + 2 * d.z, 1 + 2 * d.z, 1 + 2 * d.z };
-            if (scene->sky == SKY_CLEAR) clear_sky_radiance(rgb, &clear, d);
-            for (int c = 0; c < 3; c++) image_f32(&made.sky, column, row)[c] = (float)rgb[c];
-        }
+    } else
+        fill_overcast(&made.sky);
     sky_irradiance(made.irradiance, &made.sky);
     for (int c = 0; c < 3; c++) made.irradiance[c] += made.sun_color[c] * made.sun_direction.z;
 
@@ -165,13 +197,11 @@ bool light_create(struct light *light, const struct scene *scene, struct error *
         made.irradiance[c] *= scale;
         made.sun_color[c] *= scale;
     }
-    for (int row = 0; row < SKY_HEIGHT; row++)
+    scale_sky(&made.sky, scale);
+    for (int row = SKY_HEIGHT / 2; row < SKY_HEIGHT; row++)
         for (int column = 0; column < SKY_WIDTH; column++)
-            for (int c = 0; c < 3; c++) {
-                float *value = image_f32(&made.sky, column, row) + c;
-                *value = row < SKY_HEIGHT / 2 ? *value * (float)scale
-                                              : (float)(scene->ground_albedo[c] * made.irradiance[c]);
-            }
+            for (int c = 0; c < 3; c++)
+                image_f32(&made.sky, column, row)[c] = (float)(scene->ground_albedo[c] * made.irradiance[c]);
     *light = made;
     return true;
 }

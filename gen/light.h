@@ -33,7 +33,8 @@ struct sky_light {
 
 /* Sun and sky of a scene. The sky below the horizon has the colour of the ground.
  * Err: ERR_INPUT at the scene's sun: it stands below the horizon; what sun_position says
- * Src: clear: Preetham, Shirley, Smits 1999, A Practical Analytic Model for Daylight;
+ * Src: clear: Preetham, Shirley, Smits 1999, A Practical Analytic Model for Daylight
+ *      (form, colour, sun), IES RP-21 1984 (how much light the clear sky gives);
  *      overcast: CIE S 011/E:2003, type 1 in its traditional form (1 + 2 sin e) / 3 */
 bool light_create(struct light *light, const struct scene *scene, struct error *err);
 void light_release(struct light *light);

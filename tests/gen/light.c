@@ -1,0 +1,76 @@
+#include "gen/light.h"
+
+#include "tests/tap.h"
+
+static struct scene scene_with(enum sky_kind sky, double elevation_deg, double turbidity)
+{
+    return (struct scene){ .path = "scene.yaml", .sky = sky, .sun = sky == SKY_CLEAR ? SUN_GIVEN : SUN_NONE,
+                           .sun_azimuth_rad = 2, .sun_elevation_rad = elevation_deg * M_PI / 180,
+                           .turbidity = turbidity, .sun_scale = 1, .ground_albedo = { 0.2, 0.2, 0.2 } };
+}
+
+static double luminance(const double c[3])
+{
+    return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+}
+
+int main(void)
+{
+    struct error err = ERROR_NONE;
+    struct light light;
+    struct scene scene = scene_with(SKY_OVERCAST, 0, 3);
+    OK(light_create(&light, &scene, &err), "an overcast sky needs no sun");
+    NEAR(luminance(light.irradiance), 1, 1e-12, "a level white surface has luminance 1");
+    double zenith[3], horizon[3];
+    light_sky_radiance(zenith, &light, vec3(0, 0, 1));
+    light_sky_radiance(horizon, &light, vec3(cos(0.012), 0, sin(0.012)));
+    NEAR(zenith[1] / horizon[1], 3, 0.08, "the overcast zenith is three times as bright as the horizon (CIE)");
+    NEAR(zenith[1], 9.0 / 7, 0.01, "and 9/7 of the level irradiance / pi (integral worked out by hand)");
+    double below[3];
+    light_sky_radiance(below, &light, vec3(0.6, 0, -0.8));
+    NEAR(below[1], 0.2, 1e-6, "below the horizon is lit ground");
+
+    struct sky_light lights[48];
+    light_sample_sky(lights, 48, &light);
+    double level = 0, east = 0, west = 0;
+    bool up = true;
+    for (int i = 0; i < 48; i++) {
+        level += lights[i].color[1] * lights[i].direction.z;
+        east += lights[i].color[1] * fmax(0, lights[i].direction.x);
+        west += lights[i].color[1] * fmax(0, -lights[i].direction.x);
+        up &= lights[i].direction.z > 0;
+    }
+    OK(up, "every sky light stands above the horizon");
+    NEAR(level, light.irradiance[1], 1e-9, "sky lights sum to the level irradiance");
+    NEAR(east / west, 1, 0.25, "and light all sides of an overcast scene alike");
+    light_release(&light);
+
+    double previous = 0;
+    for (int elevation = 10; elevation <= 80; elevation += 10) {
+        scene = scene_with(SKY_CLEAR, elevation, 3);
+        err = ERROR_NONE;
+        OK(light_create(&light, &scene, &err), "a clear sky with the sun at %d deg", elevation);
+        double sun = luminance(light.sun_color) * light.sun_direction.z, sky = 1 - sun;
+        OK(sun / sky > previous, "the sun's share of the light grows with its elevation (%.2f)", sun / sky);
+        previous = sun / sky;
+        double blue[3], opposite = fmod(2 + M_PI, 2 * M_PI);
+        light_sky_radiance(blue, &light, vec3(0.6 * sin(opposite), 0.6 * cos(opposite), 0.8));
+        OK(blue[2] > blue[0], "the clear sky away from the sun is blue");
+        OK(light.sun_color[0] > light.sun_color[2], "and its sun is yellow");
+        NEAR(light.sun_direction.x, sin(2) * cos(elevation * M_PI / 180), 1e-12, "the sun stands at its azimuth");
+        light_release(&light);
+    }
+    scene = scene_with(SKY_CLEAR, 40, 3);
+    scene.north_rad = 2;
+    err = ERROR_NONE;
+    OK(light_create(&light, &scene, &err) && fabs(light.sun_direction.x) < 1e-12,
+       "a sun in the direction of the world's +y axis stands over +y");
+    light_release(&light);
+
+    scene = scene_with(SKY_CLEAR, -3, 3);
+    scene.sun_source = (struct source){ 7, 3 };
+    err = ERROR_NONE;
+    OK(!light_create(&light, &scene, &err) && err.line == 7 && strstr(err.text, "3.0 deg below the horizon"),
+       "a sun below the horizon is told with its place in the scene");
+    return tap_done();
+}
