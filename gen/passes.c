@@ -150,14 +150,27 @@ bool model_include_write(const char *out_folder, size_t model_index, const struc
         sdl_end(&sdl);
     }
     sdl_end(&sdl);
-    char *path = ok ? string_format("%s/" MODELS_FOLDER "/%s.inc", out_folder, name) : NULL;
-    ok = path && sdl_write(&sdl, path, err);
+    char *folder = string_format("%s/" MODELS_FOLDER, out_folder);
+    char *path = folder ? string_format("%s/%s.inc", folder, name) : NULL;
+    ok = ok && path && folder_make(folder, err) && sdl_write(&sdl, path, err);
     free(path);
+    free(folder);
     sdl_release(&sdl);
     return ok;
 }
 
 /* --- passes --- */
+
+bool sky_map_write(char path[SKY_MAP_SIZE], const char *out_folder, const struct light *light, struct error *err)
+{
+    uint64_t hash = hash_bytes(FILE_HASH_SEED, light->sky.data, image_size(&light->sky));
+    snprintf(path, SKY_MAP_SIZE, "frames/sky_%016llx.exr", (unsigned long long)hash);
+    char *file = string_format("%s/%s", out_folder, path), *folder = string_format("%s/frames", out_folder);
+    bool ok = file && folder && folder_make(folder, err) && (file_exists(file) || image_write(file, &light->sky, err));
+    free(folder);
+    free(file);
+    return ok;
+}
 
 static void write_camera(struct sdl *sdl, const struct passes *p)
 {
@@ -182,7 +195,7 @@ static void write_light(struct sdl *sdl, const struct passes *p, const struct pa
         sdl_declare_number(sdl, "Sun_Tangent", tan(SUN_RADIUS_RAD));
         sdl_include(sdl, "sun.inc");
     }
-    sdl_declare_string(sdl, "Sky_Map", SKY_MAP);
+    sdl_declare_string(sdl, "Sky_Map", p->sky_map);
     if (!lights || p->scene->ground_reflection > 0) sdl_include(sdl, "sky.inc");
     if (!lights) return;
     struct sky_light *sky = calloc(settings->sky_lights, sizeof *sky);

@@ -14,7 +14,6 @@
 /* POV-Ray runs in the output folder: scenes name what they include relative to it. */
 #define MODELS_FOLDER "frames/models"
 #define TEXTURES_FOLDER "frames/textures"
-#define SKY_MAP "frames/sky.exr"
 
 /* What rendering at a quality costs and gives. */
 struct pass_settings {
@@ -35,9 +34,15 @@ void model_include_name(char name[MODEL_NAME_SIZE], size_t model_index, const st
  * Err: ERR_IO, ERR_MEMORY */
 bool model_include_write(const char *out_folder, size_t model_index, const struct entity *entity, struct error *err);
 
+/* Write the light's sky map under a name made from its content, unless it is there.
+ * Out: path, relative to the output folder */
+#define SKY_MAP_SIZE 40
+bool sky_map_write(char path[SKY_MAP_SIZE], const char *out_folder, const struct light *light, struct error *err);
+
 /* All that the three scenes of a frame say. */
 struct passes {
     const struct scene *scene;
+    const char *sky_map;            /* of light, in a file: path relative to the output folder */
     const struct light *light;
     struct view view;
     struct pose world_from_camera;
