@@ -10,5 +10,5 @@ lib_libstaffage_a_SOURCES = \
   %D%/rle.c %D%/rle.h \
   %D%/vec.c %D%/vec.h \
   %D%/camera.c %D%/camera.h \
-  %D%/view.c %D%/view.h %D%/manifest.h
+  %D%/view.c %D%/view.h %D%/manifest.c %D%/manifest.h
 LIB_LIBS = lib/libstaffage.a $(OPENCV_LIBS) $(JANSSON_LIBS) -lm

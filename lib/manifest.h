@@ -24,7 +24,7 @@ struct manifest {
     struct camera camera;
     struct pose world_from_camera;
     bool empty;                 /* nothing changes in this frame: no passes were written */
-    struct view view;           /* of all three passes */
+    struct view view;           /* of all three passes; from here to exposure_patch_px not for an empty frame */
     bool exposure_given;
     double exposure;            /* used when given */
     struct rect exposure_patch_px; /* else fitted here */
@@ -39,8 +39,11 @@ struct manifest {
     size_t entity_count;
 };
 
+/* Err: ERR_INPUT for a text that is not UTF-8, ERR_BUG for what manifest_read would refuse */
 bool manifest_write(const char *path, const struct manifest *manifest, struct error *err);
-/* Err: ERR_INPUT at the path for a file that is not one of ours, or of another version */
+/* Out: what gen wrote, every double to the bit; of an empty frame no view and no exposure.
+ *      Release it.
+ * Err: ERR_INPUT at the path for a file that is not one of ours, or of another version */
 bool manifest_read(struct manifest *manifest, const char *path, struct error *err);
 void manifest_release(struct manifest *manifest);
 

@@ -65,4 +65,9 @@ nodist_EXTRA_tests_gen_sdl_test_SOURCES = dummy.cxx
 tests_gen_sdl_test_LDADD = $(GEN_LIBS)
 
 
+check_PROGRAMS += tests/lib/manifest.test
+tests_lib_manifest_test_SOURCES = %D%/lib/manifest.c %D%/tap.h
+nodist_EXTRA_tests_lib_manifest_test_SOURCES = dummy.cxx
+tests_lib_manifest_test_LDADD = $(LIB_LIBS)
+
 TESTS += $(check_PROGRAMS) $(dist_check_SCRIPTS)
