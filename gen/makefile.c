@@ -52,9 +52,9 @@ static void write_pass(FILE *f, const struct makefile_frame *frame, int pass)
     const char *options = frame->options[pass] ? frame->options[pass] : "";
     fprintf(f,
             "frames/%1$s/%2$s.exr: frames/%1$s/%2$s.pov frames/%1$s/frame.json $(TEMPLATES)\n"
-            "\t@$(STAFFAGE_POVRAY) frames/%1$s/%2$s %3$d %4$d %5$s\n"
+            "\t@$(STAFFAGE_POVRAY) frames/%1$s/%2$s %3$d %4$d%5$s%6$s\n"
             "\t@echo staffage: pass %1$s %2$s\n",
-            frame->name, pass_names[pass], frame->width_px, frame->height_px, options);
+            frame->name, pass_names[pass], frame->width_px, frame->height_px, *options ? " " : "", options);
 }
 
 static void write_frame(FILE *f, const struct makefile_frame *frame)

@@ -1,0 +1,18 @@
+# What people type, and how frames run.
+EXTRA_DIST += tests/tap.sh tests/run/stand-in-gen tests/run/stand-in-post
+EXTRA_PROGRAMS = tests/run/same-pixels tests/run/write-makefile
+CLEANFILES += $(EXTRA_PROGRAMS)
+check_DATA = $(EXTRA_PROGRAMS)
+tests_run_same_pixels_SOURCES = %D%/same-pixels.c
+nodist_EXTRA_tests_run_same_pixels_SOURCES = dummy.cxx
+tests_run_same_pixels_LDADD = $(LIB_LIBS)
+tests_run_write_makefile_SOURCES = %D%/write-makefile.c
+nodist_EXTRA_tests_run_write_makefile_SOURCES = dummy.cxx
+tests_run_write_makefile_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/makefile.test
+tests_gen_makefile_test_SOURCES = tests/gen/makefile.c tests/tap.h
+nodist_EXTRA_tests_gen_makefile_test_SOURCES = dummy.cxx
+tests_gen_makefile_test_LDADD = $(GEN_LIBS)
+
+dist_check_SCRIPTS += tests/run.sh
