@@ -4,11 +4,20 @@ post_libpost_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(JANSSON_CFLAGS)
 post_libpost_a_SOURCES = \
   %D%/depth.c %D%/depth.h \
   %D%/exposure.c %D%/exposure.h \
+  %D%/frame.c %D%/frame.h \
+  %D%/frame_list.c %D%/frame_list.h \
   %D%/input.c %D%/input.h \
   %D%/mask.c %D%/mask.h \
   %D%/morphology.cpp %D%/morphology.h \
+  %D%/output.c %D%/output.h \
+  %D%/resample.c %D%/resample.h \
   %D%/semantic.c %D%/semantic.h \
   %D%/transfer.h %D%/transfer_caught.c \
   %D%/transfer_alpha.c %D%/transfer_layers.c %D%/transfer_ratio.c %D%/transfer_threshold.c \
   %D%/window.c %D%/window.h
 POST_LIBS = post/libpost.a $(LIB_LIBS)
+
+bin_PROGRAMS += staffage-post
+staffage_post_SOURCES = %D%/main.c
+nodist_EXTRA_staffage_post_SOURCES = dummy.cxx
+staffage_post_LDADD = $(POST_LIBS)

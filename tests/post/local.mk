@@ -33,3 +33,18 @@ check_PROGRAMS += tests/post/transfer_threshold.test
 tests_post_transfer_threshold_test_SOURCES = %D%/transfer_threshold.c tests/tap.h
 nodist_EXTRA_tests_post_transfer_threshold_test_SOURCES = dummy.cxx
 tests_post_transfer_threshold_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/frame.test
+tests_post_frame_test_SOURCES = %D%/frame.c tests/tap.h
+nodist_EXTRA_tests_post_frame_test_SOURCES = dummy.cxx
+tests_post_frame_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/input.test
+tests_post_input_test_SOURCES = %D%/input.c tests/tap.h
+nodist_EXTRA_tests_post_input_test_SOURCES = dummy.cxx
+tests_post_input_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/resample.test
+tests_post_resample_test_SOURCES = %D%/resample.c tests/tap.h
+nodist_EXTRA_tests_post_resample_test_SOURCES = dummy.cxx
+tests_post_resample_test_LDADD = $(POST_LIBS)
