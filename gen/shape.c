@@ -1,10 +1,12 @@
 #include "gen/shape.h"
 
-#include <assert.h>
 #include <float.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define BATCH 64 /* rays that go to Embree together */
 
 /* What the filter of a mesh with a MASK material is given. */
 struct masked_mesh { const struct mesh *mesh; const struct material *material; };
@@ -18,18 +20,21 @@ struct shape {
     bool empty;
 };
 
-/* Only rtcIntersect1 is used, so Embree asks about one hit at a time. */
+/* Hits come in N at a time, each field N long: normal (3), u, v, triangle, mesh. */
 static void pass_holes(const struct RTCFilterFunctionNArguments *args)
 {
-    assert(args->N == 1);
     const struct masked_mesh *masked = args->geometryUserPtr;
-    const struct RTCHit *hit = (const struct RTCHit *)(const void *)args->hit;
-    const uint32_t *corner = masked->mesh->triangle[hit->primID];
-    const float *a = masked->mesh->uv[corner[0]], *b = masked->mesh->uv[corner[1]], *c = masked->mesh->uv[corner[2]];
-    double kb = (double)hit->u, kc = (double)hit->v, ka = 1 - kb - kc;
-    if (material_alpha(masked->material, ka * (double)a[0] + kb * (double)b[0] + kc * (double)c[0],
-                       ka * (double)a[1] + kb * (double)b[1] + kc * (double)c[1]) == 0)
-        args->valid[0] = 0;
+    const float *u = (const float *)(const void *)args->hit + 3 * args->N, *v = u + args->N;
+    const unsigned *triangle = (const unsigned *)(const void *)args->hit + 5 * args->N;
+    for (unsigned i = 0; i < args->N; i++) {
+        if (args->valid[i] == 0) continue;
+        const uint32_t *corner = masked->mesh->triangle[triangle[i]];
+        const float *a = masked->mesh->uv[corner[0]], *b = masked->mesh->uv[corner[1]], *c = masked->mesh->uv[corner[2]];
+        double kb = (double)u[i], kc = (double)v[i], ka = 1 - kb - kc;
+        if (material_alpha(masked->material, ka * (double)a[0] + kb * (double)b[0] + kc * (double)c[0],
+                           ka * (double)a[1] + kb * (double)b[1] + kc * (double)c[1]) == 0)
+            args->valid[i] = 0;
+    }
 }
 
 static bool attach(struct shape *shape, RTCDevice device, size_t index, struct error *err)
@@ -120,22 +125,30 @@ bool shape_bounds(const struct shape *shape, struct vec3 *min_m, struct vec3 *ma
     return true;
 }
 
-bool shape_hit(const struct shape *shape, double *range_m, struct vec3 origin_m, struct vec3 direction)
+static void hit_batch(const struct shape *shape, double *range_m, struct vec3 origin_m, const struct vec3 *directions, size_t n)
 {
-    /* Embree counts in floats: the ray starts just before the model, so that a camera far away costs no precision. */
-    double start = vec3_dot(vec3_sub(shape->centre_m, origin_m), direction) - shape->radius_m;
-    if (start < 0) start = 0;
-    struct vec3 o = vec3_add(origin_m, vec3_scale(direction, start));
-    struct RTCRayHit hit = {
-        .ray = { .org_x = (float)o.x, .org_y = (float)o.y, .org_z = (float)o.z,
-                 .dir_x = (float)direction.x, .dir_y = (float)direction.y, .dir_z = (float)direction.z,
-                 .tnear = 0, .tfar = FLT_MAX, .mask = UINT32_MAX },
-        .hit = { .geomID = RTC_INVALID_GEOMETRY_ID, .instID = { RTC_INVALID_GEOMETRY_ID } },
-    };
+    struct RTCRayHit hits[BATCH];
+    double start[BATCH];
+    for (size_t i = 0; i < n; i++) {
+        /* Embree counts in floats: a ray starts just before the model, so that a camera far away costs no precision. */
+        struct vec3 d = directions[i];
+        start[i] = fmax(0, vec3_dot(vec3_sub(shape->centre_m, origin_m), d) - shape->radius_m);
+        struct vec3 o = vec3_add(origin_m, vec3_scale(d, start[i]));
+        hits[i].ray = (struct RTCRay){ .org_x = (float)o.x, .org_y = (float)o.y, .org_z = (float)o.z, .dir_x = (float)d.x,
+                                       .dir_y = (float)d.y, .dir_z = (float)d.z, .tfar = FLT_MAX, .mask = UINT32_MAX };
+        hits[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        hits[i].hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    }
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    rtcIntersect1(shape->scene, &context, &hit);
-    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    *range_m = start + (double)hit.ray.tfar;
-    return true;
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect1M(shape->scene, &context, hits, (unsigned)n, sizeof *hits);
+    for (size_t i = 0; i < n; i++)
+        range_m[i] = hits[i].hit.geomID == RTC_INVALID_GEOMETRY_ID ? INFINITY : start[i] + (double)hits[i].ray.tfar;
+}
+
+void shape_hits(const struct shape *shape, double *range_m, struct vec3 origin_m, const struct vec3 *directions, size_t n)
+{
+    for (size_t at = 0; at < n; at += BATCH)
+        hit_batch(shape, range_m + at, origin_m, directions + at, n - at < BATCH ? n - at : BATCH);
 }

@@ -21,9 +21,9 @@ const struct model *shape_model(const struct shape *shape);
 /* The box around the triangles, model coordinates. False for a model without any. */
 bool shape_bounds(const struct shape *shape, struct vec3 *min_m, struct vec3 *max_m);
 
-/* Where a ray first meets the model.
- * Out: *range_m along the ray, > 0; untouched when it meets nothing
- * In:  origin_m, direction (unit) in model coordinates */
-bool shape_hit(const struct shape *shape, double *range_m, struct vec3 origin_m, struct vec3 direction);
+/* Where rays first meet the model.
+ * Out: range_m (n) along each ray, > 0; INFINITY where it meets nothing
+ * In:  origin_m, directions (n) unit, in model coordinates; neighbours in the list had better be neighbours in space */
+void shape_hits(const struct shape *shape, double *range_m, struct vec3 origin_m, const struct vec3 *directions, size_t n);
 
 #endif

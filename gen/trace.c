@@ -2,6 +2,7 @@
 
 #include "gen/footprint.h"
 #include "gen/polygon.h"
+#include "gen/rays.h"
 #include "gen/shape.h"
 
 #include <math.h>
@@ -27,6 +28,10 @@ bool tracer_create(struct tracer **tracer, const struct model *const *models, si
         error_set(err, ERR_MEMORY, "no memory for a tracer");
         goto failed;
     }
+    if (!rtcGetDeviceProperty(t->device, RTC_DEVICE_PROPERTY_RAY_STREAM_SUPPORTED)) {
+        error_set(err, ERR_BUG, "this Embree was built without ray streams");
+        goto failed;
+    }
     for (; t->n < n; t->n++)
         if (!shape_create(&t->shapes[t->n], t->device, models[t->n], err)) goto failed;
     *tracer = t;
@@ -50,39 +55,6 @@ static const struct shape *tracer_shape(const struct tracer *tracer, const struc
     for (size_t i = 0; i < tracer->n; i++)
         if (shape_model(tracer->shapes[i]) == model) return tracer->shapes[i];
     return NULL;
-}
-
-/* Rays through pixels. A lens has to be inverted step by step, so each row of the photograph
- * remembers the rays that it was asked for. */
-struct rays {
-    const struct camera *camera;
-    struct camera_intrinsics in;
-    bool pinhole;
-    struct vec3 *row;                                  /* (width) unit, camera coordinates */
-    enum { RAY_UNKNOWN, RAY_KNOWN, RAY_NONE } *state;  /* (width) of the row */
-};
-
-static bool ray_at(const struct rays *rays, struct vec3 *direction, double x_px, double y_px)
-{
-    if (rays->pinhole) {
-        *direction = vec3_unit(vec3((x_px - rays->in.cx_px) / rays->in.fx_px, (y_px - rays->in.cy_px) / rays->in.fy_px, 1));
-        return true;
-    }
-    struct error none = ERROR_NONE;
-    return camera_unproject(rays->camera, direction, (struct vec2){ x_px, y_px }, &none);
-}
-
-static void rays_begin_row(struct rays *rays)
-{
-    memset(rays->state, 0, (size_t)rays->camera->width_px * sizeof *rays->state);
-}
-
-static bool row_ray(struct rays *rays, struct vec3 *direction, int x, int y)
-{
-    if (rays->state[x] == RAY_UNKNOWN)
-        rays->state[x] = ray_at(rays, &rays->row[x], x + 0.5, y + 0.5) ? RAY_KNOWN : RAY_NONE;
-    *direction = rays->row[x];
-    return rays->state[x] == RAY_KNOWN;
 }
 
 /* A plane in camera coordinates that rays from the camera meet at range level / (normal . direction). */
@@ -111,6 +83,9 @@ struct cast {
     struct rect frame_px;  /* the part of that inside the photograph */
     uint8_t *mask;         /* (h,w) of frame_px */
     float *depth_m;
+    int stride_px;         /* each ray outside stands for stride x stride pixels */
+    int64_t outside;       /* amodal pixels outside */
+    struct rect outside_px;
 };
 
 struct frame {
@@ -121,10 +96,14 @@ struct frame {
     struct screen *screens;
     size_t screen_count;
     struct sight_plane ground;
-    double *range_m;    /* (width) of the nearest entity in a row */
-    ptrdiff_t *front;   /* (width) what is in front: -1, an entity, or cast_count + a screen */
-    int64_t *counts;    /* (cast_count, cast_count + screen_count): pixels of an entity by what is in front there */
-    struct image ahead; /* F32 1, only with screens: range of the nearest entity, infinite where there is none */
+    double *range_m;            /* (width) of the nearest entity in a row */
+    struct vec3 *probe;         /* (3 width) directions of rays at an entity, in its coordinates */
+    double *probe_z;            /* the same rays' z in the camera */
+    double *probe_range_m;      /* where they meet it */
+    int *probe_x;
+    ptrdiff_t *front;           /* (width) what is in front: -1, an entity, or cast_count + a screen */
+    int64_t *counts;            /* (cast_count, cast_count + screen_count): pixels of an entity by what is in front there */
+    struct image ahead;         /* F32 1, only with screens: range of the nearest entity, infinite where there is none */
 };
 
 static struct rect rect_intersect(struct rect a, struct rect b)
@@ -134,31 +113,23 @@ static struct rect rect_intersect(struct rect a, struct rect b)
     return r.x0 < r.x1 && r.y0 < r.y1 ? r : (struct rect){ 0, 0, 0, 0 };
 }
 
+static struct rect rect_unite(struct rect a, struct rect b)
+{
+    if (a.x0 == a.x1) return b;
+    if (b.x0 == b.x1) return a;
+    return (struct rect){ a.x0 < b.x0 ? a.x0 : b.x0, a.y0 < b.y0 ? a.y0 : b.y0, a.x1 > b.x1 ? a.x1 : b.x1,
+                          a.y1 > b.y1 ? a.y1 : b.y1 };
+}
+
 static size_t rect_area(struct rect r)
 {
     return (size_t)(r.x1 - r.x0) * (size_t)(r.y1 - r.y0);
 }
 
-static bool rect_holds(struct rect r, int x, int y)
+/* Grow a rectangle to hold side x side pixels from (x, y) on as well. */
+static void rect_add(struct rect *r, int x, int y, int side)
 {
-    return x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1;
-}
-
-/* Grow a rectangle, empty when x1 is 0 and x0 is, to hold w x h pixels from (x, y). */
-static void rect_add(struct rect *r, bool *any, int x, int y, int side)
-{
-    if (!*any) *r = (struct rect){ x, y, x + side, y + side };
-    *any = true;
-    if (x < r->x0) r->x0 = x;
-    if (y < r->y0) r->y0 = y;
-    if (x + side > r->x1) r->x1 = x + side;
-    if (y + side > r->y1) r->y1 = y + side;
-}
-
-static bool cast_hit(const struct cast *cast, double *range_m, struct vec3 direction)
-{
-    return shape_hit(cast->shape, range_m, cast->entity_from_camera.translation,
-                     mat3_apply(cast->entity_from_camera.rotation, direction));
+    *r = rect_unite(*r, (struct rect){ x, y, x + side, y + side });
 }
 
 static bool cast_init(struct cast *cast, const struct tracer *tracer, const struct camera *camera,
@@ -174,10 +145,13 @@ static bool cast_init(struct cast *cast, const struct tracer *tracer, const stru
                                (struct rect){ -w, -h, 2 * w, 2 * h });
     cast->frame_px = rect_intersect(cast->reach_px, (struct rect){ 0, 0, w, h });
     size_t area = rect_area(cast->frame_px);
+    double outside = (double)(rect_area(cast->reach_px) - area);
+    cast->stride_px = outside > OUTSIDE_RAYS ? (int)ceil(sqrt(outside / OUTSIDE_RAYS)) : 1;
     if (area == 0) return true;
     cast->mask = calloc(area, sizeof *cast->mask);
     cast->depth_m = malloc(area * sizeof *cast->depth_m);
     if (!cast->mask || !cast->depth_m) return error_set(err, ERR_MEMORY, "no memory for the mask of %s", entity->name);
+    for (size_t i = 0; i < area; i++) cast->depth_m[i] = NAN;
     return true;
 }
 
@@ -209,16 +183,18 @@ static bool frame_init(struct frame *frame, const struct tracer *tracer, const s
                        size_t entity_count, const struct occluder *occluders, size_t occluder_count, struct error *err)
 {
     size_t width = (size_t)camera->width_px;
-    frame->rays = (struct rays){ .camera = camera, .in = camera_intrinsics(camera), .pinhole = camera_is_pinhole(camera),
-                                 .row = malloc(width * sizeof *frame->rays.row),
-                                 .state = malloc(width * sizeof *frame->rays.state) };
+    if (!rays_init(&frame->rays, camera, err)) return false;
     frame->entities = entities;
     frame->casts = calloc(entity_count + 1, sizeof *frame->casts);
     frame->screens = calloc(occluder_count + 1, sizeof *frame->screens);
     frame->range_m = malloc(width * sizeof *frame->range_m);
     frame->front = malloc(width * sizeof *frame->front);
     frame->counts = calloc(entity_count * (entity_count + occluder_count) + 1, sizeof *frame->counts);
-    if (!frame->rays.row || !frame->rays.state || !frame->casts || !frame->screens || !frame->range_m || !frame->front ||
+    frame->probe = malloc(3 * width * sizeof *frame->probe);
+    frame->probe_z = malloc(3 * width * sizeof *frame->probe_z);
+    frame->probe_range_m = malloc(3 * width * sizeof *frame->probe_range_m);
+    frame->probe_x = malloc(3 * width * sizeof *frame->probe_x);
+    if (!frame->probe || !frame->probe_z || !frame->probe_range_m || !frame->probe_x || !frame->casts || !frame->screens || !frame->range_m || !frame->front ||
         !frame->counts)
         return error_set(err, ERR_MEMORY, "no memory for the labels of a frame");
     frame->ground.normal = mat3_apply(mat3_transpose(world_from_camera.rotation), ground->normal);
@@ -243,14 +219,32 @@ static void frame_release(struct frame *frame)
         free(frame->screens[i].samples);
         free(frame->screens[i].inside);
     }
-    free(frame->rays.row);
-    free(frame->rays.state);
+    rays_release(&frame->rays);
+    free(frame->probe);
+    free(frame->probe_z);
+    free(frame->probe_range_m);
+    free(frame->probe_x);
     free(frame->casts);
     free(frame->screens);
     free(frame->range_m);
     free(frame->front);
     free(frame->counts);
     image_release(&frame->ahead);
+}
+
+/* Rays at one entity, at every stride-th pixel from x0 on in the row that frame->rays is at: fills the probes. */
+static size_t probe_row(struct frame *frame, const struct cast *cast, int x0, int x1, int stride)
+{
+    size_t n = 0;
+    for (int x = x0; x < x1; x += stride) {
+        struct vec3 direction;
+        if (!rays_get(&frame->rays, &direction, x)) continue;
+        frame->probe_x[n] = x;
+        frame->probe_z[n] = direction.z;
+        frame->probe[n++] = mat3_apply(cast->entity_from_camera.rotation, direction);
+    }
+    shape_hits(cast->shape, frame->probe_range_m, cast->entity_from_camera.translation, frame->probe, n);
+    return n;
 }
 
 /* Every entity's mask and depth in a row, and which is nearest. */
@@ -264,14 +258,14 @@ static void trace_row(struct frame *frame, int y)
         struct cast *cast = &frame->casts[i];
         struct rect r = cast->frame_px;
         if (y < r.y0 || y >= r.y1) continue;
-        size_t at = (size_t)(y - r.y0) * (size_t)(r.x1 - r.x0);
-        for (int x = r.x0; x < r.x1; x++, at++) {
-            struct vec3 direction;
-            double range;
-            cast->depth_m[at] = NAN;
-            if (!row_ray(&frame->rays, &direction, x, y) || !cast_hit(cast, &range, direction)) continue;
-            cast->mask[at] = 1;
-            cast->depth_m[at] = (float)(range * direction.z);
+        size_t row = (size_t)(y - r.y0) * (size_t)(r.x1 - r.x0);
+        size_t n = probe_row(frame, cast, r.x0, r.x1, 1);
+        for (size_t k = 0; k < n; k++) {
+            int x = frame->probe_x[k];
+            double range = frame->probe_range_m[k];
+            if (!isfinite(range)) continue;
+            cast->mask[row + (size_t)(x - r.x0)] = 1;
+            cast->depth_m[row + (size_t)(x - r.x0)] = (float)(range * frame->probe_z[k]);
             if (range < frame->range_m[x]) {
                 frame->range_m[x] = range;
                 frame->front[x] = (ptrdiff_t)i;
@@ -291,8 +285,9 @@ static void screen_row(struct frame *frame, int y)
         if (y < r.y0 || y >= r.y1) continue;
         polygon_row_centres(&screen->polygon, screen->inside, y, r.x0, r.x1);
         for (int x = r.x0; x < r.x1; x++) {
-            if (!screen->inside[x - r.x0] || frame->front[x] < 0) continue;
-            double range = sight_range(screen->plane, frame->rays.row[x]);
+            struct vec3 direction;
+            if (!screen->inside[x - r.x0] || frame->front[x] < 0 || !rays_get(&frame->rays, &direction, x)) continue;
+            double range = sight_range(screen->plane, direction);
             if (range < frame->range_m[x]) {
                 frame->range_m[x] = range;
                 frame->front[x] = (ptrdiff_t)(frame->cast_count + k);
@@ -305,6 +300,7 @@ static void screen_row(struct frame *frame, int y)
 static void label_row(struct frame *frame, struct frame_labels *labels, int y)
 {
     size_t things = frame->cast_count + frame->screen_count;
+    for (int x = 0; x < labels->depth.width_px; x++) *image_f32(&labels->depth, x, y) = NAN;
     for (size_t i = 0; i < frame->cast_count; i++) {
         const struct cast *cast = &frame->casts[i];
         struct rect r = cast->frame_px;
@@ -314,39 +310,37 @@ static void label_row(struct frame *frame, struct frame_labels *labels, int y)
         for (int x = r.x0; x < r.x1; x++) {
             size_t at = row + (size_t)(x - r.x0);
             if (!cast->mask[at]) continue;
-            rect_add(&out->mask_px, &out->in_frame, x, y, 1);
+            rect_add(&out->mask_px, x, y, 1);
             frame->counts[i * things + (size_t)frame->front[x]]++;
             if ((size_t)frame->front[x] != i) continue;
             *image_u16(&labels->instance, x, y) = frame->entities[i].id;
             *image_f32(&labels->depth, x, y) = cast->depth_m[at];
-            bool seen = out->pixels_visible++ > 0;
-            rect_add(&out->box_visible_px, &seen, x, y, 1);
+            rect_add(&out->box_visible_px, x, y, 1);
+            out->pixels_visible++;
         }
     }
 }
 
-/* The amodal pixels beyond the photograph's border. */
-static void trace_outside(const struct frame *frame, struct entity_labels *out, size_t index)
+/* A row's amodal pixels above, below and beside the photograph. */
+static void trace_outside(struct frame *frame, int y)
 {
-    const struct cast *cast = &frame->casts[index];
-    struct rect reach = cast->reach_px, photograph = { 0, 0, frame->rays.camera->width_px, frame->rays.camera->height_px };
-    bool any = out->in_frame;
-    out->box_amodal_px = out->mask_px;
-    out->pixels_total = out->pixels_amodal;
-    size_t outside = rect_area(reach) - rect_area(cast->frame_px);
-    if (outside == 0) return;
-    int stride = (int)ceil(sqrt((double)outside / OUTSIDE_RAYS));
-    for (int y = reach.y0; y < reach.y1; y += stride)
-        for (int x = reach.x0; x < reach.x1; x += stride) {
-            int mx = x + stride / 2, my = y + stride / 2;
-            struct vec3 direction;
-            double range;
-            if (rect_holds(photograph, mx, my) || !ray_at(&frame->rays, &direction, mx + 0.5, my + 0.5) ||
-                !cast_hit(cast, &range, direction))
-                continue;
-            rect_add(&out->box_amodal_px, &any, x, y, stride);
-            out->pixels_total += (int64_t)stride * stride;
+    int width = frame->rays.camera->width_px, height = frame->rays.camera->height_px;
+    bool beside = y >= 0 && y < height;
+    for (size_t i = 0; i < frame->cast_count; i++) {
+        struct cast *cast = &frame->casts[i];
+        struct rect reach = cast->reach_px;
+        if (y < reach.y0 || y >= reach.y1 || (y - reach.y0) % cast->stride_px != 0) continue;
+        int spans[2][2] = { { reach.x0, beside && reach.x1 > 0 ? 0 : reach.x1 },
+                            { reach.x0 > width ? reach.x0 : width, beside ? reach.x1 : 0 } };
+        for (int s = 0; s < 2; s++) {
+            size_t n = probe_row(frame, cast, spans[s][0], spans[s][1], cast->stride_px);
+            for (size_t k = 0; k < n; k++) {
+                if (!isfinite(frame->probe_range_m[k])) continue;
+                rect_add(&cast->outside_px, frame->probe_x[k], y, cast->stride_px);
+                cast->outside += (int64_t)cast->stride_px * cast->stride_px;
+            }
         }
+    }
 }
 
 static int by_pixels(const void *a, const void *b)
@@ -392,11 +386,14 @@ static bool finish_entity(const struct frame *frame, struct entity_labels *out, 
 {
     size_t things = frame->cast_count + frame->screen_count;
     for (size_t k = 0; k < things; k++) out->pixels_amodal += frame->counts[index * things + k];
-    trace_outside(frame, out, index);
+    const struct cast *cast = &frame->casts[index];
+    out->in_frame = out->pixels_amodal > 0;
+    out->pixels_total = out->pixels_amodal + cast->outside;
+    out->box_amodal_px = rect_intersect(rect_unite(out->mask_px, cast->outside_px), cast->reach_px);
     out->visible_fraction = out->pixels_amodal > 0 ? (double)out->pixels_visible / (double)out->pixels_amodal : 0;
     out->truncation = out->pixels_total > 0 ? 1 - (double)out->pixels_amodal / (double)out->pixels_total : 1;
     if (!out->in_frame) return true;
-    return list_hiders(frame, out, index, err) && crop(&frame->casts[index], out, err);
+    return list_hiders(frame, out, index, err) && crop(cast, out, err);
 }
 
 /* Range of the nearest entity whose edge can reach a pixel. */
@@ -429,7 +426,7 @@ static bool share_screens(struct frame *frame, struct frame_labels *labels, stru
     if (!hidden) return error_set(err, ERR_MEMORY, "no memory for the labels of a frame");
     for (int y = 0; y < height; y++) {
         bool any = false;
-        rays_begin_row(&frame->rays);
+        rays_begin_row(&frame->rays, y);
         for (size_t k = 0; k < frame->screen_count; k++) {
             struct screen *screen = &frame->screens[k];
             struct rect r = screen->bounds_px;
@@ -439,7 +436,7 @@ static bool share_screens(struct frame *frame, struct frame_labels *labels, stru
             for (int x = r.x0; x < r.x1; x++) {
                 uint64_t samples = screen->samples[x - r.x0];
                 struct vec3 direction;
-                if (!samples || !row_ray(&frame->rays, &direction, x, y)) continue;
+                if (!samples || !rays_get(&frame->rays, &direction, x)) continue;
                 double range = sight_range(screen->plane, direction), entity = ahead_m(frame, x, y);
                 if (isfinite(entity) && range < entity) hidden[x] |= samples;
                 double ground = sight_range(frame->ground, direction);
@@ -474,12 +471,14 @@ bool trace_frame(struct frame_labels *labels, struct tracer *tracer, const struc
         goto out;
     }
     out.entity_count = entity_count;
-    for (int y = 0; y < camera->height_px; y++) {
-        for (int x = 0; x < camera->width_px; x++) *image_f32(&out.depth, x, y) = NAN;
-        rays_begin_row(&frame.rays);
-        trace_row(&frame, y);
-        screen_row(&frame, y);
-        label_row(&frame, &out, y);
+    for (int y = -camera->height_px; y < 2 * camera->height_px; y++) {
+        rays_begin_row(&frame.rays, y);
+        if (y >= 0 && y < camera->height_px) {
+            trace_row(&frame, y);
+            screen_row(&frame, y);
+            label_row(&frame, &out, y);
+        }
+        trace_outside(&frame, y);
     }
     for (size_t i = 0; i < entity_count; i++)
         if (!finish_entity(&frame, &out.entities[i], i, err)) goto out;
