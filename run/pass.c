@@ -75,6 +75,8 @@ static _Noreturn void child_run(const struct files *files, const struct pass *pa
     if (!arguments) child_fail("POV-Ray", "no memory to start it");
     memcpy(arguments, fixed, sizeof fixed);
     if (pass->option_count > 0) memcpy(arguments + n, pass->options, pass->option_count * sizeof *arguments);
+    /* POV-Ray has its own idea of Ctrl-C: what ends it is its parent. */
+    setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(127);
     struct error err = ERROR_NONE;
@@ -129,6 +131,12 @@ static bool fail(const struct files *files, int status, struct error *err)
     return false;
 }
 
+static void add_unless_ignored(sigset_t *set, int number)
+{
+    struct sigaction action;
+    if (sigaction(number, NULL, &action) == 0 && action.sa_handler != SIG_IGN) sigaddset(set, number);
+}
+
 bool pass_render(const struct pass *pass, struct error *err)
 {
     struct files files;
@@ -143,9 +151,9 @@ bool pass_render(const struct pass *pass, struct error *err)
     }
     sigemptyset(&waited);
     sigaddset(&waited, SIGCHLD);
-    sigaddset(&waited, SIGINT);
-    sigaddset(&waited, SIGTERM);
-    sigaddset(&waited, SIGHUP);
+    add_unless_ignored(&waited, SIGINT);
+    add_unless_ignored(&waited, SIGTERM);
+    add_unless_ignored(&waited, SIGHUP);
     sigprocmask(SIG_BLOCK, &waited, &before);
     pid_t parent = getpid(), child = fork();
     if (child == 0) child_run(&files, pass, log, parent, &before);

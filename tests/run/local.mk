@@ -16,3 +16,8 @@ nodist_EXTRA_tests_gen_makefile_test_SOURCES = dummy.cxx
 tests_gen_makefile_test_LDADD = $(GEN_LIBS)
 
 dist_check_SCRIPTS += tests/run.sh
+
+EXTRA_DIST += tests/bench.sh
+.PHONY: bench
+bench: all
+	top_srcdir='$(abs_top_srcdir)' top_builddir='$(abs_top_builddir)' $(srcdir)/tests/bench.sh
