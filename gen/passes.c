@@ -15,12 +15,13 @@ struct pass_settings pass_settings(enum quality quality, enum sky_kind sky)
     bool clear = sky == SKY_CLEAR;
     switch (quality) {
     case QUALITY_DRAFT:
-        return (struct pass_settings){ 12, false, 40, 0.9, "-A", "-A" };
+        return (struct pass_settings){ 10, false, 30, 0.9, "-A", "-A" };
     case QUALITY_HIGH:
-        return (struct pass_settings){ clear ? 64 : 48, !clear, 300, 0.3, "+A0.02 +AM2 +R3 -J", "+A0.05 +AM2 +R3 -J" };
+        return (struct pass_settings){ 48, !clear, 200, 0.4, "+A0.1 +AM2 +R2 -J", "+A0.1 +AM2 +R2 -J" };
     case QUALITY_STANDARD:
     default:
-        return (struct pass_settings){ clear ? 32 : 24, !clear, 80, 0.6, "+A0.05 +AM2 +R2 -J", "+A0.1 +AM2 +R2 -J" };
+        return (struct pass_settings){ clear ? 16 : 32, false, 50, 0.8, "+A0.3 +AM2 +R1 -J",
+                                       clear ? "+A0.3 +AM2 +R1 -J" : "-A" };
     }
 }
 
@@ -186,7 +187,10 @@ static void write_camera(struct sdl *sdl, const struct passes *p)
     sdl_include(sdl, "camera.inc");
 }
 
-static void write_light(struct sdl *sdl, const struct passes *p, const struct pass_settings *settings, bool lights)
+/* How the sky lights a pass: by radiosity; by lights, with or without something in their way. */
+enum lights { LIGHTS_RADIOSITY, LIGHTS_OPEN, LIGHTS_SHADED };
+
+static void write_light(struct sdl *sdl, const struct passes *p, const struct pass_settings *settings, enum lights lights)
 {
     const struct light *light = p->light;
     if (light->has_sun) {
@@ -196,19 +200,21 @@ static void write_light(struct sdl *sdl, const struct passes *p, const struct pa
         sdl_include(sdl, "sun.inc");
     }
     sdl_declare_string(sdl, "Sky_Map", p->sky_map);
-    if (!lights || p->scene->ground_reflection > 0) sdl_include(sdl, "sky.inc");
-    if (!lights) return;
-    struct sky_light *sky = calloc(settings->sky_lights, sizeof *sky);
+    if (lights == LIGHTS_RADIOSITY || p->scene->ground_reflection > 0) sdl_include(sdl, "sky.inc");
+    if (lights == LIGHTS_RADIOSITY) return;
+    /* On a level plane without anything to shade it, one light gives what all of them give. */
+    size_t n = lights == LIGHTS_OPEN ? 1 : settings->sky_lights;
+    struct sky_light *sky = calloc(n, sizeof *sky);
     if (!sky) {
         error_set(&sdl->err, ERR_MEMORY, "no memory for the sky's lights");
         return;
     }
-    light_sample_sky(sky, settings->sky_lights, light);
+    light_sample_sky(sky, n, light);
     /* Each light's share of the hemisphere as a cone: 2 pi (1 - cos r) = 2 pi / n. */
-    double radius = acos(1 - 1.0 / (double)settings->sky_lights);
-    sdl_declare_number(sdl, "Sky_Light_Soft", settings->soft_sky_lights ? tan(radius) : 0);
+    double radius = acos(1 - 1.0 / (double)n);
+    sdl_declare_number(sdl, "Sky_Light_Soft", settings->soft_sky_lights && n > 1 ? tan(radius) : 0);
     sdl_include(sdl, "sky_lights.inc");
-    for (size_t i = 0; i < settings->sky_lights; i++) {
+    for (size_t i = 0; i < n; i++) {
         const struct sky_light *s = &sky[i];
         sdl_call(sdl, "Sky_Light",
                  (double[]){ s->direction.x, s->direction.y, s->direction.z, s->color[0], s->color[1], s->color[2] }, 6);
@@ -282,7 +288,7 @@ static bool write_pass(const char *frame_folder, const char *name, const struct 
     sdl_declare_number(&sdl, "Radiosity_Error", settings.radiosity_error);
     sdl_include(&sdl, "settings.inc");
     write_camera(&sdl, p);
-    write_light(&sdl, p, &settings, receivers);
+    write_light(&sdl, p, &settings, !receivers ? LIGHTS_RADIOSITY : entities ? LIGHTS_SHADED : LIGHTS_OPEN);
     sdl_declare_color(&sdl, "Ground_Albedo", scene->ground_albedo);
     sdl_declare_number(&sdl, "Ground_Reflection", scene->ground_reflection);
     sdl_include(&sdl, "ground.inc");
@@ -291,6 +297,10 @@ static bool write_pass(const char *frame_folder, const char *name, const struct 
     else {
         sdl_declare_vector(&sdl, "Ground_Normal", scene->ground.normal);
         sdl_declare_number(&sdl, "Ground_Offset", scene->ground.offset_m);
+        double sky[3];
+        for (int c = 0; c < 3; c++)
+            sky[c] = p->light->irradiance[c] - p->light->sun_color[c] * fmax(0, p->light->sun_direction.z);
+        sdl_declare_color(&sdl, "Ground_Sky", sky);
     }
     char *include = string_format("pass_%s.inc", name), *path = string_format("%s/%s.pov", frame_folder, name);
     bool ok = include && path;
