@@ -15,8 +15,7 @@ gen_libgen_a_SOURCES += \
   %D%/yaml.c %D%/yaml.h
 gen_libgen_a_SOURCES += %D%/material.h %D%/model.h %D%/texture.h
 gen_libgen_a_SOURCES += \
-  %D%/footprint.c %D%/footprint.h %D%/polygon.c %D%/polygon.h %D%/shape.c %D%/shape.h %D%/trace.c
-gen_libgen_a_SOURCES += %D%/makefile.c %D%/makefile.h
   %D%/footprint.c %D%/footprint.h %D%/polygon.c %D%/polygon.h %D%/rays.c %D%/rays.h %D%/shape.c %D%/shape.h %D%/trace.c
+gen_libgen_a_SOURCES += %D%/makefile.c %D%/makefile.h
 GEN_LIBS = gen/libgen.a $(LIB_LIBS) $(GEOGRAPHIC_LIBS) $(TINYGLTF_LIBS) $(ASSIMP_LIBS) $(EMBREE_LIBS) $(ERFA_LIBS) $(YAML_LIBS)
 
