@@ -135,30 +135,55 @@ static void read_place(const struct reading *r, const struct yaml_node *root)
     scene->has_time = time && !utc_time_parse(&scene->time_utc, time->text);
 }
 
-static bool read_light(const struct reading *r, const struct yaml_node *node)
+/* A key that the user gave and that nothing would come of is a misunderstanding. */
+static bool refuse_given(const struct reading *r, const struct yaml_node *mapping, const char *const *keys,
+                         const char *section, const char *why)
+{
+    for (; *keys; keys++) {
+        const struct yaml_node *value = yaml_get(mapping, *keys);
+        if (!value->is_default) return FAIL(r, value, "%s.%s: %s", section, *keys, why);
+    }
+    return true;
+}
+
+static bool read_overcast(const struct reading *r, const struct yaml_node *node)
+{
+    static const char *const of_clear[] = { "turbidity", "sun_scale", NULL };
+    const struct yaml_node *sun = yaml_get(node, "sun");
+    r->scene->sun = SUN_NONE;
+    if (sun->kind == YAML_MAPPING)
+        return FAIL(r, sun, "light.sun: an overcast sky shows no sun: remove it, or use \"sky: clear\"");
+    return refuse_given(r, node, of_clear, "light", "has no meaning under an overcast sky: remove it, or use \"sky: clear\"");
+}
+
+static bool read_clear(const struct reading *r, const struct yaml_node *node)
 {
     struct scene *scene = r->scene;
-    const struct yaml_node *sky = yaml_get(node, "sky"), *sun = yaml_get(node, "sun");
-    bool automatic = sun->kind == YAML_SCALAR && !strcmp(sun->text, "auto");
-    scene->sky = (enum sky_kind)schema_choice(sky_name, sky);
-    scene->turbidity = number_at(node, "turbidity");
-    scene->sun_scale = number_at(node, "sun_scale");
-    scene->sun_source = source_of(sun);
+    const struct yaml_node *sun = yaml_get(node, "sun");
     if (sun->kind == YAML_MAPPING) {
-        if (scene->sky == SKY_OVERCAST)
-            return FAIL(r, sun, "light.sun: an overcast sky shows no sun: remove it, or use \"sky: clear\"");
         scene->sun = SUN_GIVEN;
         scene->sun_azimuth_rad = rad_from_deg(number_at(sun, "azimuth_deg"));
         scene->sun_elevation_rad = rad_from_deg(number_at(sun, "elevation_deg"));
-    } else if (automatic && scene->sky == SKY_CLEAR) {
-        if (!scene->has_place || !scene->has_time)
-            return FAIL(r, sky, "light: a clear sky needs its sun, and %s missing: give place and time, or light.sun as {azimuth_deg, elevation_deg} or none",
-                        scene->has_place ? "time is" : scene->has_time ? "place is" : "place and time are");
-        scene->sun = SUN_BY_TIME;
-    } else {
-        scene->sun = SUN_NONE;
+        return true;
     }
+    /* How bright a clear sky is, and where, follows from the sun. */
+    if (!strcmp(sun->text, "none"))
+        return FAIL(r, sun, "light.sun: a clear sky has its light from the sun: \"sun_scale: 0\" takes the sun itself away, \"sky: overcast\" needs none");
+    if (!scene->has_place || !scene->has_time)
+        return FAIL(r, yaml_get(node, "sky"), "light: a clear sky needs its sun, and %s missing: give place and time, or light.sun as {azimuth_deg, elevation_deg}",
+                    scene->has_place ? "time is" : scene->has_time ? "place is" : "place and time are");
+    scene->sun = SUN_BY_TIME;
     return true;
+}
+
+static bool read_light(const struct reading *r, const struct yaml_node *node)
+{
+    struct scene *scene = r->scene;
+    scene->sky = (enum sky_kind)schema_choice(sky_name, yaml_get(node, "sky"));
+    scene->turbidity = number_at(node, "turbidity");
+    scene->sun_scale = number_at(node, "sun_scale");
+    scene->sun_source = source_of(yaml_get(node, "sun"));
+    return scene->sky == SKY_CLEAR ? read_clear(r, node) : read_overcast(r, node);
 }
 
 static bool read_points(const struct reading *r, const struct yaml_node *node)
@@ -425,20 +450,15 @@ static bool read_occluders(const struct reading *r, const struct yaml_node *node
 
 static bool read_transfer(const struct reading *r, const struct yaml_node *node)
 {
-    static const char *const of_threshold[] = { "t1", "t2", "t3", "overwrite" };
+    static const char *const of_threshold[] = { "t1", "t2", "t3", "overwrite", NULL };
     struct scene *scene = r->scene;
     scene->transfer = (enum transfer_kind)schema_choice(transfer_name, yaml_get(node, "method"));
     scene->t1 = number_at(node, "t1");
     scene->t2 = number_at(node, "t2");
     scene->t3 = number_at(node, "t3");
     scene->overwrite = (enum overwrite_side)schema_choice(overwrite_name, yaml_get(node, "overwrite"));
-    for (size_t i = 0; i < sizeof of_threshold / sizeof *of_threshold; i++) {
-        const struct yaml_node *value = yaml_get(node, of_threshold[i]);
-        if (scene->transfer != TRANSFER_THRESHOLD && !value->is_default)
-            return FAIL(r, value, "transfer.%s: has no meaning with method %s (only with threshold)", of_threshold[i],
-                        transfer_name((int)scene->transfer));
-    }
-    return true;
+    return scene->transfer == TRANSFER_THRESHOLD ||
+           refuse_given(r, node, of_threshold, "transfer", "has a meaning with \"method: threshold\" only");
 }
 
 static bool read_settings(const struct reading *r, const struct yaml_node *root)

@@ -83,7 +83,7 @@ struct scene {
     bool has_time;
     struct utc_time time_utc;
     double north_rad;          /* azimuth of the world's +y axis, clockwise from true north */
-    enum sun_kind sun;         /* BY_TIME: place and time are there; NONE under an overcast sky */
+    enum sun_kind sun;         /* NONE under an overcast sky and only there; BY_TIME: place and time are there */
     double sun_azimuth_rad, sun_elevation_rad; /* GIVEN: azimuth clockwise from true north */
     struct source sun_source;
 

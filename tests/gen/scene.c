@@ -3,26 +3,112 @@
 #include "lib/file.h"
 #include "tests/tap.h"
 
-/* A path under the source tree's tests folder; the caller frees. */
-static char *input_path(const char *name)
+#include <dirent.h>
+#include <limits.h>
+#include <unistd.h>
+
+/* A path in the source tree; the caller frees. */
+static char *source_path(const char *name)
 {
     const char *top = getenv("top_srcdir");
-    return string_format("%s/tests/%s", top ? top : ".", name);
+    return string_format("%s/%s", top ? top : ".", name);
+}
+
+static struct scene *read_file(const char *path)
+{
+    struct error err = ERROR_NONE;
+    struct scene *scene = NULL;
+    if (!scene_read(&scene, path, &err)) printf("# %s:%d:%d: %s\n", err.file, err.line, err.column, err.text);
+    return scene;
 }
 
 static struct scene *read_input(const char *name)
 {
+    char *path = source_path(name);
+    struct scene *scene = read_file(path);
+    free(path);
+    return scene;
+}
+
+/* A folder with a scene that a test writes, and empty files for it to name. */
+static char folder[] = "scene-test.XXXXXX";
+static const char *const named_files[] = { "street.jpg", "street-wet.jpg", "street.avi", "my.rules", "models/hatchback.obj",
+                                           "models/suv.obj", "models/walker.glb", "scene.yaml" };
+enum { NAMED_FILES = sizeof named_files / sizeof *named_files };
+
+static char *folder_path(const char *name)
+{
+    return string_format("%s/%s", folder, name);
+}
+
+static bool folder_create(void)
+{
     struct error err = ERROR_NONE;
+    char *models = mkdtemp(folder) ? folder_path("models") : NULL;
+    bool ok = models && folder_make(models, &err);
+    free(models);
+    for (int i = 0; ok && i < NAMED_FILES; i++) {
+        char *path = folder_path(named_files[i]);
+        ok = file_write(path, "", 0, &err);
+        free(path);
+    }
+    return ok;
+}
+
+static void folder_remove(void)
+{
+    for (int i = 0; i < NAMED_FILES; i++) {
+        char *path = folder_path(named_files[i]);
+        unlink(path);
+        free(path);
+    }
+    char *models = folder_path("models");
+    rmdir(models);
+    free(models);
+    rmdir(folder);
+}
+
+static const struct { const char *key, *text; } sections[] = {
+    { "staffage:", "staffage: 1\n" },
+    { "photographs:", "photographs: {files: [street.jpg]}\n" },
+    { "camera:", "camera: {model: PINHOLE, size_px: [2000, 1500], horizontal_fov_deg: 90, "
+                 "pose: {look_at: {position_m: [0, 0, 6], target_m: [0, 20, 0]}}}\n" },
+    { "light:", "light: {sky: overcast}\n" },
+    { "ground:", "ground: {height_m: 0}\n" },
+    { "exposure:", "exposure: {value: 1}\n" },
+    { "models:", "models: {hatchback: {file: models/hatchback.obj, unit_m: 1, up: z, front: -y, class: car}}\n" },
+    { "entities:", "entities: []\n" },
+};
+
+/* Does a line of the text begin with the key? */
+static bool has_section(const char *text, const char *key)
+{
+    for (const char *line = text; line; line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL)
+        if (!strncmp(line, key, strlen(key))) return true;
+    return false;
+}
+
+/* Read a scene of these sections; those that it lacks and that are required are added.
+ * NULL when it is refused: the reason is in *err. */
+static struct scene *read_sections(const char *text, struct error *err)
+{
+    char *whole = strdup(text), *path = folder_path("scene.yaml");
+    for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
+        if (has_section(text, sections[i].key)) continue;
+        char *more = string_format("%s%s", whole, sections[i].text);
+        free(whole);
+        whole = more;
+    }
     struct scene *scene = NULL;
-    char *path = input_path(name);
-    if (!scene_read(&scene, path, &err)) printf("# %s:%d:%d: %s\n", err.file, err.line, err.column, err.text);
+    if (file_write(path, whole, strlen(whole), err)) scene_read(&scene, path, err);
+    free(whole);
     free(path);
     return scene;
 }
 
 static void a_minimal_scene_takes_the_stated_defaults(void)
 {
-    struct scene *s = read_input("input/minimal.yaml");
+    struct scene *s = read_input("tests/input/minimal.yaml");
     if (!OK(s, "a scene with only what it must have is read")) return;
     OK(s->photograph_count == 1 && !s->is_video && s->scale == 1, "one photograph, not reduced");
     OK(file_exists(s->photographs[0]), "its path is taken from the scene file's folder");
@@ -44,8 +130,340 @@ static void a_minimal_scene_takes_the_stated_defaults(void)
     scene_destroy(s);
 }
 
+static void a_full_scene_is_read_back(void)
+{
+    struct scene *s = read_input("tests/input/full.yaml");
+    if (!OK(s, "a scene with every section is read")) return;
+    OK(s->is_video && s->photograph_count == 1 && s->scale == 0.5, "a video, reduced");
+    OK(s->video_frame_count == 5 && s->video_frames[0] == 10 && s->video_frames[4] == 30, "10:31:5 are the frames 10 to 30, the end excluded");
+    OK(s->camera.model == CAMERA_OPENCV && s->camera.params[1] == 1002.5 && s->camera.params[7] == -0.002, "camera parameters");
+    NEAR(s->place.latitude_rad, 0.70593227, 1e-7, "latitude in radians");
+    NEAR(s->place.height_m, 280, 0, "height");
+    NEAR(s->north_rad, -M_PI / 6, 1e-15, "north in radians");
+    OK(s->time_utc.hour == 14 && s->time_utc.second == 40.5, "time in UTC");
+    OK(s->sky == SKY_CLEAR && s->sun == SUN_BY_TIME && s->turbidity == 4.5 && s->sun_scale == 0.75, "light");
+    double n = sqrt(0.36 + 4);
+    NEAR(s->ground.normal.z, 2 / n, 1e-15, "a plane whose normal points down is turned up");
+    NEAR(s->ground.normal.y, -0.6 / n, 1e-15, "with all of its normal");
+    NEAR(s->ground.offset_m, -4 / n, 1e-15, "and its offset, in metres");
+    NEAR(s->ground_albedo[0], 1, 1e-7, "#ff is 1 in linear light");
+    NEAR(s->ground_albedo[1], 0.21586, 1e-5, "#80 is 0.216 in linear light");
+    NEAR(s->ground_albedo[2], 0, 0, "#00 is 0");
+    NEAR(s->ground_reflection, 0.125, 0, "reflection");
+    OK(s->exposure_given && s->exposure == 0.75 && !s->white_balance, "exposure given");
+    OK(s->model_count == 2 && !strcmp(s->models[1].name, "tall box") && file_exists(s->models[1].file), "models by name");
+    OK(s->models[0].options.length_m == 4.2 && s->models[0].options.unit_m == 0 && s->models[1].options.height_m == 1.8, "model sizes");
+    OK(s->models[0].options.axes_given && s->models[0].options.up == AXIS_NEG_Y && s->models[0].options.front == AXIS_POS_Z &&
+           s->models[1].options.up == AXIS_POS_Y && s->models[1].options.front == AXIS_NEG_X, "model axes, with and without sign");
+    OK(!s->models[0].has_class && s->models[1].has_class, "classes of models");
+    OK(s->material_rules && file_exists(s->material_rules), "material rules");
+    const struct scene_entity *e = s->entities;
+    OK(s->entity_count == 3 && e[0].class_ == CLASS_FIRE_TRUCK && e[1].class_ == CLASS_PERSON && e[2].class_ == CLASS_RIDER,
+       "an entity's class goes before its model's");
+    OK(e[0].model_index == 0 && e[2].model_index == 1, "models of entities");
+    OK(e[0].place == PLACE_WORLD && e[0].at[0] == 1.5 && e[0].at[1] == -2, "a place in the world");
+    OK(e[1].place == PLACE_GEODETIC && e[1].at[0] == 40.447 && e[1].at[1] == -79.949, "a place on the earth, in degrees");
+    OK(e[2].place == PLACE_PIXEL && e[2].at[0] == 2000 && e[2].at[1] == 750.5, "a place in the picture, up to its edge");
+    NEAR(e[0].heading_rad, 1.5 * M_PI, 1e-15, "heading in radians");
+    OK(e[0].has_color && e[0].color[2] == 0.3 && e[1].color[1] > 0.999 && !e[2].has_color, "colours");
+    OK(e[1].source.line == 24 && e[1].source.column == 5 && e[1].at_source.column == 51, "where they stand in the file");
+    OK(s->occluder_count == 1 && s->occluders[0].polygon_count == 3 && s->occluders[0].polygon_px[0].y == -3 &&
+           s->occluders[0].ground_px.y == 1600, "an occluder may reach out of the picture");
+    OK(s->transfer == TRANSFER_THRESHOLD && s->t1 == 10 && s->t2 == 20 && s->t3 == 40 && s->overwrite == OVERWRITE_BELOW, "transfer");
+    OK(s->mask == MASK_DILATED && s->quality == QUALITY_HIGH && s->seed == 42, "mask, quality, seed");
+    scene_destroy(s);
+}
+
+/* Poses. */
+
+#define CAMERA "camera: {model: PINHOLE, size_px: [2000, 1500], horizontal_fov_deg: 90, pose: {"
+
+static struct pose read_pose(const char *pose)
+{
+    struct error err = ERROR_NONE;
+    char *text = string_format(CAMERA "%s}}\n", pose);
+    struct scene *scene = read_sections(text, &err);
+    struct pose read = { .translation = { NAN, NAN, NAN } };
+    if (scene) read = scene->world_from_camera;
+    if (!scene) printf("# %d:%d: %s\n", err.line, err.column, err.text);
+    scene_destroy(scene);
+    free(text);
+    return read;
+}
+
+static double vec3_distance(struct vec3 a, struct vec3 b)
+{
+    return vec3_norm(vec3_sub(a, b));
+}
+
+/* At 3 m east, 2 m north, 5 m up, level, looking north: told in every way. */
+static void one_pose_in_many_conventions(void)
+{
+    static const struct { const char *name, *pose; } same[] = {
+        { "look_at", "look_at: {position_m: [3, 2, 5], target_m: [3, 9, 5]}" },
+        { "look_at in a world with y up", "world_axes: [east, up, south], look_at: {position_m: [3, 5, -2], target_m: [3, 5, -3]}" },
+        { "matrix, opencv", "matrix: [[1, 0, 0, 3], [0, 0, 1, 2], [0, -1, 0, 5]]" },
+        { "matrix, opencv, 4x4", "axes: opencv, matrix: [[1, 0, 0, 3], [0, 0, 1, 2], [0, -1, 0, 5], [0, 0, 0, 1]]" },
+        { "matrix, opengl", "axes: opengl, matrix: [[1, 0, 0, 3], [0, 0, -1, 2], [0, 1, 0, 5]]" },
+        { "matrix, x-left-y-up", "axes: x-left-y-up, matrix: [[-1, 0, 0, 3], [0, 0, 1, 2], [0, 1, 0, 5]]" },
+        { "matrix, x-left-y-up in a world west, up, north",
+          "axes: x-left-y-up, world_axes: [west, up, north], matrix: [[1, 0, 0, -3], [0, 1, 0, 5], [0, 0, 1, 2]]" },
+        { "matrix, opencv in a left-handed world",
+          "world_axes: [east, up, north], matrix: [[1, 0, 0, 3], [0, -1, 0, 5], [0, 0, 1, 2]]" },
+        { "camera_from_world, quaternion",
+          "camera_from_world: {quaternion_wxyz: [0.7071067811865476, 0.7071067811865476, 0, 0], translation_m: [-3, 5, -2]}" },
+        { "camera_from_world, rotation",
+          "camera_from_world: {rotation: [[1, 0, 0], [0, 0, -1], [0, 1, 0]], translation_m: [-3, 5, -2]}" },
+        { "camera_from_world, opengl",
+          "axes: opengl, camera_from_world: {rotation: [[1, 0, 0], [0, 0, 1], [0, -1, 0]], translation_m: [-3, -5, 2]}" },
+        { "position and quaternion",
+          "position_m: [3, 2, 5], quaternion_wxyz: [0.7071067811865476, -0.7071067811865476, 0, 0]" },
+        { "position and rotation, opengl", "axes: opengl, position_m: [3, 2, 5], rotation: [[1, 0, 0], [0, 0, -1], [0, 1, 0]]" },
+    };
+    for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
+        struct pose p = read_pose(same[i].pose);
+        bool here = vec3_distance(p.translation, vec3(3, 2, 5)) < 1e-12;
+        bool right = vec3_distance(mat3_column(p.rotation, 0), vec3(1, 0, 0)) < 1e-12;
+        bool down = vec3_distance(mat3_column(p.rotation, 1), vec3(0, 0, -1)) < 1e-12;
+        bool forward = vec3_distance(mat3_column(p.rotation, 2), vec3(0, 1, 0)) < 1e-12;
+        OK(here && right && down && forward, "looks north from where it stands: %s", same[i].name);
+    }
+}
+
+/* The matrix of ../shared/data/README.md: what it says of the place must come out. */
+static void the_craig_camera(void)
+{
+    struct pose p = read_pose("axes: x-left-y-up, world_axes: [west, up, north], matrix: ["
+                              "[-6.32009074e-01, 3.81421015e-01, 6.74598057e-01, -1.95597297e+01], "
+                              "[5.25615099e-03, 8.72582680e-01, -4.88438164e-01, 6.43714192e+00], "
+                              "[-7.74943161e-01, -3.05151563e-01, -5.53484978e-01, 4.94516235e+00]]");
+    NEAR(p.translation.z, 6.43714192, 1e-9, "the craig camera stands 6.44 m high");
+    NEAR(p.translation.x, 19.5597297, 1e-9, "its x points west");
+    NEAR(p.translation.y, 4.94516235, 1e-9, "its z points north");
+    struct vec3 forward = mat3_column(p.rotation, 2), right = mat3_column(p.rotation, 0), down = mat3_column(p.rotation, 1);
+    NEAR(forward.z, -0.488438164, 1e-6, "it looks 29 degrees down");
+    OK(forward.x < 0 && forward.y < 0, "towards the south west");
+    OK(down.z < 0 && fabs(right.z) < 0.01, "upright, its horizon level");
+    NEAR(mat3_determinant(p.rotation), 1, 1e-12, "without mirroring");
+    NEAR(mat3_orthonormality(p.rotation), 0, 1e-12, "straightened");
+}
+
+static void look_at_rolls_and_looks_down(void)
+{
+    struct pose p = read_pose("look_at: {position_m: [0, 0, 40], target_m: [0, 0, 0], up: [0, 1, 0]}");
+    OK(vec3_distance(mat3_column(p.rotation, 0), vec3(1, 0, 0)) < 1e-12 &&
+           vec3_distance(mat3_column(p.rotation, 1), vec3(0, -1, 0)) < 1e-12, "a map: north at the top, east to the right");
+    p = read_pose("look_at: {position_m: [0, 0, 5], target_m: [0, 9, 5], roll_deg: 90}");
+    OK(vec3_distance(mat3_column(p.rotation, 0), vec3(0, 0, -1)) < 1e-12, "rolled clockwise by 90 degrees, its right side is down");
+    OK(vec3_distance(mat3_column(p.rotation, 1), vec3(-1, 0, 0)) < 1e-12, "and its lower side to the left");
+}
+
+static void a_rounded_rotation_is_straightened(void)
+{
+    struct pose p = read_pose("matrix: [[0.866, 0, 0.5, 0], [0.5, 0, -0.866, 0], [0, 1, 0, 5]]");
+    NEAR(mat3_orthonormality(p.rotation), 0, 1e-15, "a rotation with three digits becomes exact");
+    NEAR(p.rotation.m[0][0], sqrt(0.75), 1e-4, "and stays what it was");
+}
+
+/* The text of the manual's page. */
+
+static char *read_manual(void)
+{
+    struct error err = ERROR_NONE;
+    char *path = source_path("docs/scene.md"), *text = NULL;
+    size_t size;
+    file_read(&text, &size, path, &err);
+    free(path);
+    return text;
+}
+
+/* Row "| `path` | type | unit | default | ..." as scene_schema_text writes it, or false. */
+static bool manual_row(char *row, size_t size, const char *line, size_t length)
+{
+    char cell[4][512] = { "" };
+    if (length < 3 || strncmp(line, "| `", 3)) return false;
+    const char *c = line + 2;
+    for (int i = 0; i < 4; i++) {
+        const char *end = strstr(c, " |");
+        if (!end || end > line + length) return false;
+        snprintf(cell[i], sizeof cell[i], "%.*s", (int)(end - c), c);
+        c = end + 3;
+    }
+    snprintf(row, size, "%.*s\t%s\t%s\t%s\n", (int)strcspn(cell[0] + 1, "`"), cell[0] + 1, cell[1], cell[2], cell[3]);
+    return c < line + length && *c != '|';
+}
+
+static void the_manual_has_every_key_and_no_other(const char *manual)
+{
+    char *schema = scene_schema_text(), *told = strdup("");
+    const char *end;
+    for (const char *line = manual; (end = strchr(line, '\n')); line = end + 1) {
+        char row[2048];
+        if (!manual_row(row, sizeof row, line, (size_t)(end - line))) continue;
+        char *more = string_format("%s%s", told, row);
+        free(told);
+        told = more;
+        if (!strstr(schema, row)) printf("# docs/scene.md says, the schema does not: %s", row);
+    }
+    for (char *row = schema; *row; row = strchr(row, '\n') + 1) {
+        char *one = strndup(row, (size_t)(strchr(row, '\n') + 1 - row));
+        if (!strstr(told, one)) printf("# the schema says, docs/scene.md does not: %s", one);
+        free(one);
+    }
+    OK(strlen(schema) > 4000, "the schema has its keys");
+    OK(!strcmp(schema, told), "docs/scene.md has every key with its type, unit and default, in order, and no other");
+    free(schema);
+    free(told);
+}
+
+static void the_manual_names_the_camera_parameters(const char *manual)
+{
+    for (int i = 0; i < CAMERA_MODEL_COUNT; i++) {
+        enum camera_model model = (enum camera_model)i;
+        char *row = string_format("\n| %s | %s |\n", camera_model_name(model), camera_model_param_names(model));
+        OK(strstr(manual, row), "docs/scene.md has the parameters of %s", camera_model_name(model));
+        free(row);
+    }
+}
+
+static void the_manuals_examples_are_read(const char *manual)
+{
+    int examples = 0;
+    for (const char *start = manual; (start = strstr(start, "\n```yaml\n"));) {
+        start += strlen("\n```yaml\n");
+        const char *end = strstr(start, "```");
+        char *text = strndup(start, (size_t)(end - start));
+        struct error err = ERROR_NONE;
+        struct scene *scene = read_sections(text, &err);
+        OK(scene, "example %d of docs/scene.md is read: %.*s ...", ++examples, (int)strcspn(text, "\n"), text);
+        if (!scene) printf("# %d:%d: %s\n%s", err.line, err.column, err.text, text);
+        scene_destroy(scene);
+        free(text);
+        start = end;
+    }
+    OK(examples >= 15, "every section has an example");
+}
+
+/* Wherever a file is cut off, it is read or refused at a place in it. */
+static void a_cut_off_file_is_refused_in_words(void)
+{
+    struct error err = ERROR_NONE;
+    char *path = source_path("tests/input/full.yaml"), *cut = folder_path("scene.yaml"), *data;
+    size_t size, refused = 0, told = 0;
+    bool there = file_read(&data, &size, path, &err);
+    OK(there, "a file to cut");
+    for (size_t n = 0; there && n < size; n++) {
+        struct scene *scene = NULL;
+        err = ERROR_NONE;
+        if (!file_write(cut, data, n, &err)) break;
+        if (scene_read(&scene, cut, &err)) {
+            scene_destroy(scene);
+            continue;
+        }
+        refused++;
+        told += err.code == ERR_INPUT && !strcmp(err.file, cut) && err.line > 0 && err.column > 0 && err.text[0];
+    }
+    OK(refused > 1000 && told == refused, "a file cut off anywhere is refused with line, column and text");
+    if (there) free(data);
+    free(path);
+    free(cut);
+}
+
+static void text_is_not_guessed_to_be_something_else(void)
+{
+    static const struct { const char *line, *text; } wrong[] = {
+        { "seed: 010\n", "seed: expected integer from 0 to 2147483647, found text \"010\"" },
+        { "seed: 0x10\n", "seed: expected integer from 0 to 2147483647, found text \"0x10\"" },
+        { "seed: 1_000\n", "seed: expected integer from 0 to 2147483647, found text \"1_000\"" },
+        { "seed: 99999999999999999999\n", "seed: expected integer from 0 to 2147483647, found 99999999999999999999" },
+        { "north_deg: nan\n", "north_deg: expected number from -360 to 360, found text \"nan\"" },
+        { "north_deg: .inf\n", "north_deg: expected number from -360 to 360, found text \".inf\"" },
+        { "north_deg: 1e999\n", "north_deg: expected number from -360 to 360, found text \"1e999\"" },
+        { "north_deg: 1:30\n", "north_deg: expected number from -360 to 360, found text \"1:30\"" },
+        { "north_deg: \n", "north_deg: expected number from -360 to 360, found nothing" },
+        { "quality: Draft\n", "unknown quality \"Draft\" (did you mean \"draft\"?)" },
+        { "quality: \"hi\\0gh\"\n", "a line break or control character in a value" },
+        { "quality: &q high\n", "anchors (&name) are not understood here: remove it" },
+        { "quality: *q\n", "aliases (*name) are not understood here: write the value out" },
+        { "? [seed]\n: 1\n", "a key must be plain text" },
+        { "quality: high\n\"quality\": draft\n", "key \"quality\" is here for the second time (first in line 1): keep one" },
+        { "seed.x: 1\n", "unknown key \"seed.x\" (known here: staffage, photographs, camera, place, north_deg, time, light, ground, "
+                         "exposure, models, materials, entities, occluders, transfer, labels, quality, seed)" },
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        struct error err = ERROR_NONE;
+        struct scene *scene = read_sections(wrong[i].line, &err);
+        OK(!scene && !strcmp(err.text, wrong[i].text), "%.*s: %s", (int)strcspn(wrong[i].line, "\n"), wrong[i].line, err.text);
+        scene_destroy(scene);
+    }
+    struct error err = ERROR_NONE;
+    char deep[200] = "seed: ";
+    memset(deep + 6, '[', 100);
+    OK(!read_sections(deep, &err) && !strcmp(err.text, "nested too deeply"), "a hundred brackets: %s", err.text);
+}
+
+static void a_file_that_is_not_there(void)
+{
+    struct error err = ERROR_NONE;
+    struct scene *scene = NULL;
+    OK(!scene_read(&scene, "no-such/scene.yaml", &err) && !scene, "a scene file that is not there is refused");
+    OK(!strcmp(err.file, "no-such/scene.yaml") && strstr(err.text, "No such file"), "with its path and the reason");
+}
+
+/* tests/invalid/NAME/{scene.yaml,error}: what the program prints for the file. */
+static int only_folders(const struct dirent *entry)
+{
+    return entry->d_name[0] != '.';
+}
+
+static void every_invalid_scene_gives_its_message(void)
+{
+    char *invalid = source_path("tests/invalid"), here[PATH_MAX];
+    struct dirent **entries = NULL;
+    int n = scandir(invalid, &entries, only_folders, alphasort), cases = 0;
+    if (!OK(n > 0 && getcwd(here, sizeof here), "there are invalid scenes")) return;
+    for (int i = 0; i < n; i++) {
+        char *path = string_format("%s/%s", invalid, entries[i]->d_name), *want = NULL, got[2048];
+        size_t size;
+        struct error err = ERROR_NONE, ignored = ERROR_NONE;
+        struct scene *scene = NULL;
+        bool ok = chdir(path) == 0 && file_read(&want, &size, "error", &ignored);
+        scene_read(&scene, "scene.yaml", &err);
+        snprintf(got, sizeof got, "%s:%d:%d: %s\n", err.file, err.line, err.column, err.text);
+        OK(ok && !scene && !strcmp(got, want), "%s: %s", entries[i]->d_name, err.text);
+        cases++;
+        scene_destroy(scene);
+        free(want);
+        free(path);
+        free(entries[i]);
+        ok = chdir(here) == 0;
+        if (!ok) break;
+    }
+    OK(cases >= 14, "enough of them");
+    free(entries);
+    free(invalid);
+}
+
 int main(void)
 {
+    if (!OK(folder_create(), "a folder to write scenes into")) return tap_done();
+    char *manual = read_manual();
     a_minimal_scene_takes_the_stated_defaults();
+    a_full_scene_is_read_back();
+    one_pose_in_many_conventions();
+    the_craig_camera();
+    look_at_rolls_and_looks_down();
+    a_rounded_rotation_is_straightened();
+    if (OK(manual, "docs/scene.md is there")) {
+        the_manual_has_every_key_and_no_other(manual);
+        the_manual_names_the_camera_parameters(manual);
+        the_manuals_examples_are_read(manual);
+    }
+    text_is_not_guessed_to_be_something_else();
+    a_cut_off_file_is_refused_in_words();
+    a_file_that_is_not_there();
+    every_invalid_scene_gives_its_message();
+    free(manual);
+    folder_remove();
     return tap_done();
 }
