@@ -3,6 +3,7 @@ noinst_LIBRARIES += gen/libgen.a
 gen_libgen_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(GEOGRAPHIC_CFLAGS) $(TINYGLTF_CFLAGS) $(ASSIMP_CFLAGS) \
   $(ERFA_CFLAGS) $(YAML_CFLAGS) $(JANSSON_CFLAGS)
 gen_libgen_a_SOURCES = \
+  %D%/camera_sdl.c %D%/camera_sdl.h \
   %D%/entity.c %D%/entity.h \
   %D%/footprint.c %D%/footprint.h \
   %D%/ground.c %D%/ground.h \

@@ -1,5 +1,6 @@
 #include "gen/passes.h"
 
+#include "gen/camera_sdl.h"
 #include "gen/sdl.h"
 #include "gen/texture.h"
 #include "lib/file.h"
@@ -173,20 +174,6 @@ bool sky_map_write(char path[SKY_MAP_SIZE], const char *out_folder, const struct
     return ok;
 }
 
-static void write_camera(struct sdl *sdl, const struct passes *p)
-{
-    const struct view *v = &p->view;
-    struct mat3 world_from_view = mat3_multiply(p->world_from_camera.rotation, mat3_transpose(v->view_from_camera));
-    struct vec3 right = mat3_column(world_from_view, 0), up = vec3_scale(mat3_column(world_from_view, 1), -1);
-    struct vec3 middle = vec3_add(vec3_scale(right, (v->width_px / 2.0 - v->cx_px) / v->fx_px),
-                                  vec3_scale(up, -(v->height_px / 2.0 - v->cy_px) / v->fy_px));
-    sdl_declare_vector(sdl, "View_Location", p->world_from_camera.translation);
-    sdl_declare_vector(sdl, "View_Right", vec3_scale(right, v->width_px / v->fx_px));
-    sdl_declare_vector(sdl, "View_Up", vec3_scale(up, v->height_px / v->fy_px));
-    sdl_declare_vector(sdl, "View_Direction", vec3_add(mat3_column(world_from_view, 2), middle));
-    sdl_include(sdl, "camera.inc");
-}
-
 /* How the sky lights a pass: by radiosity; by lights, with or without something in their way. */
 enum lights { LIGHTS_RADIOSITY, LIGHTS_OPEN, LIGHTS_SHADED };
 
@@ -287,7 +274,7 @@ static bool write_pass(const char *frame_folder, const char *name, const struct 
     sdl_declare_number(&sdl, "Radiosity_Count", settings.radiosity_count);
     sdl_declare_number(&sdl, "Radiosity_Error", settings.radiosity_error);
     sdl_include(&sdl, "settings.inc");
-    write_camera(&sdl, p);
+    camera_write(&sdl, &p->view, p->world_from_camera);
     write_light(&sdl, p, &settings, !receivers ? LIGHTS_RADIOSITY : entities ? LIGHTS_SHADED : LIGHTS_OPEN);
     sdl_declare_color(&sdl, "Ground_Albedo", scene->ground_albedo);
     sdl_declare_number(&sdl, "Ground_Reflection", scene->ground_reflection);
