@@ -6,11 +6,20 @@ gen_libgen_a_SOURCES = \
   %D%/camera_sdl.c %D%/camera_sdl.h \
   %D%/entity.c %D%/entity.h \
   %D%/footprint.c %D%/footprint.h \
+  %D%/gltf.cpp %D%/gltf.h \
   %D%/ground.c %D%/ground.h \
   %D%/label.c %D%/label.h \
   %D%/light.c %D%/light.h \
   %D%/makefile.c %D%/makefile.h \
+  %D%/material.c %D%/material.h \
+  %D%/mesh.c %D%/mesh.h \
+  %D%/model.c %D%/model.h \
+  %D%/model_assimp.c \
+  %D%/model_gltf.c \
+  %D%/model_import.c %D%/model_import.h \
+  %D%/model_texture.c %D%/model_texture.h \
   %D%/nearest.c %D%/nearest.h \
+  %D%/paint.c %D%/paint.h \
   %D%/passes.c %D%/passes.h \
   %D%/place.cpp %D%/place.h \
   %D%/polygon.c %D%/polygon.h \
@@ -24,8 +33,8 @@ gen_libgen_a_SOURCES = \
   %D%/sdl.c %D%/sdl.h \
   %D%/shape.c %D%/shape.h \
   %D%/sun.c %D%/sun.h \
+  %D%/texture.c %D%/texture.h \
   %D%/trace.c %D%/trace.h \
   %D%/yaml.c %D%/yaml.h
-gen_libgen_a_SOURCES += %D%/material.h %D%/model.h %D%/texture.h
 GEN_LIBS = gen/libgen.a $(LIB_LIBS) $(GEOGRAPHIC_LIBS) $(TINYGLTF_LIBS) $(ASSIMP_LIBS) $(EMBREE_LIBS) $(ERFA_LIBS) $(YAML_LIBS)
 

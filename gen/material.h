@@ -29,7 +29,7 @@ struct material {
     enum finish_kind kind;
     double base_color[3];       /* linear, 0..1; multiplies the texture */
     double alpha;               /* 0..1; used by BLEND and MASK */
-    struct image base_image;    /* sRGB, U8, 3 channels or 4 (straight alpha); empty without texture; owned */
+    struct image base_image;    /* sRGB, U8, 3 channels or 4 (straight alpha); empty without texture; borrowed from the model */
     enum alpha_mode alpha_mode;
     double alpha_cutoff;        /* MASK: a texel of less alpha is not there */
     double metallic, roughness; /* 0..1 */
@@ -42,7 +42,6 @@ struct material {
 
 /* White, rough, opaque, ior 1.5. */
 void material_default(struct material *material);
-void material_release(struct material *material);
 
 /* The share of light that the surface stops at a texture position (v up, repeating; the texel
  * that the position lies in): 1 where opaque, 0 or 1 where MASK, factor times texel where BLEND. */

@@ -4,6 +4,7 @@
 #define STAFFAGE_GEN_MODEL_H
 
 #include "gen/material.h"
+#include "gen/mesh.h"
 #include "lib/class.h"
 #include "lib/error.h"
 #include "lib/vec.h"
@@ -12,22 +13,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Triangles that share a material. */
-struct mesh {
-    float (*position_m)[3];   /* (vertices,3) */
-    float (*normal)[3];       /* (vertices,3), unit */
-    float (*uv)[2];           /* (vertices,2), v up: (0,0) is the image's lower left corner; NULL without texture */
-    uint32_t (*triangle)[3];  /* (triangles,3), counter-clockwise from outside */
-    size_t vertices, triangles;
-    size_t material;          /* index into model.materials */
-};
-
 struct model {
     char *path;
     struct mesh *meshes;
     size_t mesh_count;
     struct material *materials;
     size_t material_count;
+    struct image *images;     /* each texture's pixels once, however many materials show it */
+    size_t image_count;
     struct vec3 min_m, max_m; /* bounding box; min_m.z is 0 */
     char **missing_textures;  /* names that the model gives and that were not found */
     size_t missing_texture_count;

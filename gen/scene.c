@@ -294,6 +294,8 @@ static bool read_model(const struct reading *r, struct scene_model *model, const
     }
     model->has_class = class_ != NULL;
     if (class_) model->class_ = (enum entity_class)schema_choice(class_choice_name, class_);
+    options->has_class = model->has_class;
+    options->class_ = model->class_;
     return true;
 }
 

@@ -13,8 +13,9 @@
 #define TEXTURE_NAME_SIZE 32
 
 /* Write the texture of a material that has one (base_image.data) as an 8 bit sRGB PNG, with
- * the material's base_color and alpha baked in: the scene multiplies nothing any more. An alpha
- * channel is written only where the material is not opaque (and for MASK holds 0 or 255 only).
+ * the material's base_color, alpha and transmission baked in: the scene multiplies nothing any
+ * more. An alpha channel is written only where the material is not opaque, for POV-Ray pays for it
+ * with every shadow ray (and for MASK holds 0 or 255 only).
  * Out: name        file name in `folder`: "t" and 16 hex digits and ".png"
  *      has_alpha   the file has 4 channels
  * In:  paint       linear, or NULL: replaces the body colour of a FINISH_PAINT material; shading,

@@ -57,6 +57,9 @@ static inline uint16_t *image_u16(const struct image *image, int x, int y)
  * Err: ERR_INPUT at `path` when it is missing, truncated or no image. */
 bool image_read(struct image *image, const char *path, struct error *err);
 
+/* The same from bytes in memory; `path` names them in errors. */
+bool image_decode(struct image *image, const void *data, size_t size, const char *path, struct error *err);
+
 /* Read only the size. */
 bool image_read_size(int *width_px, int *height_px, const char *path, struct error *err);
 

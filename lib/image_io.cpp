@@ -4,6 +4,7 @@ extern "C" {
 #include "lib/file.h"
 }
 
+#include <climits>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -73,6 +74,20 @@ bool image_read(struct image *image, const char *path, struct error *err)
         cv::Mat mat = cv::imread(path, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
         if (mat.empty()) return error_at(err, ERR_INPUT, path, 0, 0, "is not an image that can be read (PNG, JPEG, TIFF or EXR), or is truncated");
         if (ends_early(path)) return error_at(err, ERR_INPUT, path, 0, 0, "is truncated: the JPEG has no end marker");
+        return image_from_mat(image, mat, path, err);
+    });
+}
+
+bool image_decode(struct image *image, const void *data, size_t size, const char *path, struct error *err)
+{
+    return guarded(err, ERR_INPUT, [&] {
+        prepare();
+        cv::Mat mat;
+        if (size > 0 && size <= INT_MAX) {
+            cv::Mat bytes(1, (int)size, CV_8U, const_cast<void *>(data));
+            mat = cv::imdecode(bytes, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
+        }
+        if (mat.empty()) return error_at(err, ERR_INPUT, path, 0, 0, "is not an image that can be read (PNG, JPEG, TIFF or EXR), or is truncated");
         return image_from_mat(image, mat, path, err);
     });
 }
