@@ -11,7 +11,6 @@ extern "C" {
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 #include <string>
 #include <unistd.h>
 
@@ -115,7 +114,7 @@ bool image_write(const char *path, const struct image *image, struct error *err)
         std::vector<int> options;
         if (image->type == PIXEL_F32) options = { cv::IMWRITE_EXR_TYPE, cv::IMWRITE_EXR_TYPE_FLOAT };
         else if (dot && !strcmp(dot, ".jpg")) options = { cv::IMWRITE_JPEG_QUALITY, 95 };
-        else options = { cv::IMWRITE_PNG_COMPRESSION, 2 };
+        else options = { cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_DEFAULT }; /* naming no level keeps OpenCV's one cheap filter */
         if (!cv::imwrite(temporary, bgr, options)) {
             unlink(temporary.c_str());
             return error_at(err, ERR_IO, path, 0, 0, "cannot be written");
@@ -130,42 +129,6 @@ bool image_resize(struct image *out, const struct image *in, int width_px, int h
         if (!image_init(out, width_px, height_px, in->channels, in->type, err)) return false;
         cv::Mat to = mat_over(out);
         cv::resize(mat_over(in), to, to.size(), 0, 0, width_px < in->width_px ? cv::INTER_AREA : cv::INTER_CUBIC);
-        return true;
-    });
-}
-
-bool video_info(int *width_px, int *height_px, int *frames, const char *video, struct error *err)
-{
-    return guarded(err, ERR_INPUT, [&] {
-        prepare();
-        cv::VideoCapture capture(video, cv::CAP_FFMPEG);
-        if (!capture.isOpened()) return error_at(err, ERR_INPUT, video, 0, 0, "is not a video that can be read");
-        *width_px = (int)capture.get(cv::CAP_PROP_FRAME_WIDTH);
-        *height_px = (int)capture.get(cv::CAP_PROP_FRAME_HEIGHT);
-        *frames = (int)capture.get(cv::CAP_PROP_FRAME_COUNT);
-        return true;
-    });
-}
-
-bool video_extract(const char *video, const int *frames, const char *const *paths, size_t n, struct error *err)
-{
-    return guarded(err, ERR_INPUT, [&] {
-        prepare();
-        cv::VideoCapture capture(video, cv::CAP_FFMPEG);
-        if (!capture.isOpened()) return error_at(err, ERR_INPUT, video, 0, 0, "is not a video that can be read");
-        int at = -1; /* seeking in a video is not exact with every codec: it is decoded in order */
-        cv::Mat mat;
-        for (size_t i = 0; i < n; i++) {
-            for (; at < frames[i]; at++)
-                if (!capture.grab())
-                    return error_at(err, ERR_INPUT, video, 0, 0, "ends before frame %d: it has %d frames", frames[i], at + 1);
-            struct image image;
-            if (!capture.retrieve(mat)) return error_at(err, ERR_INPUT, video, 0, 0, "frame %d cannot be decoded", frames[i]);
-            if (!image_from_mat(&image, mat, video, err)) return false;
-            bool ok = image_write(paths[i], &image, err);
-            image_release(&image);
-            if (!ok) return false;
-        }
         return true;
     });
 }

@@ -9,6 +9,7 @@ lib_libstaffage_a_SOURCES = \
   %D%/opencv.h \
   %D%/rle.c %D%/rle.h \
   %D%/vec.c %D%/vec.h \
+  %D%/video_io.cpp \
   %D%/camera.c %D%/camera.h \
   %D%/view.c %D%/view.h %D%/manifest.c %D%/manifest.h
 LIB_LIBS = lib/libstaffage.a $(OPENCV_LIBS) $(JANSSON_LIBS) -lm
