@@ -21,3 +21,5 @@ bin_PROGRAMS += staffage-post
 staffage_post_SOURCES = %D%/main.c
 nodist_EXTRA_staffage_post_SOURCES = dummy.cxx
 staffage_post_LDADD = $(POST_LIBS)
+# It starts once a frame: libraries that it does not use are not loaded.
+staffage_post_LDFLAGS = $(AM_LDFLAGS) -Wl,--as-needed

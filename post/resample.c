@@ -7,6 +7,7 @@
  * as long as that is off by no more than this at the other five nodes. */
 #define MAP_TOLERANCE_PX 0.005
 #define CELL_PX 16
+#define SAMPLES_MAX 16
 
 struct resampling {
     struct image *out;
@@ -27,12 +28,14 @@ static struct vec2 cell_map(const struct cell *cell, double s, double t)
                           a * v[0][0].y + b * v[0][1].y + c * v[1][0].y + d * v[1][1].y };
 }
 
-/* Add the view around a position to the pixel of every layer. */
-static void add_sample(const struct resampling *r, size_t pixel, struct vec2 v, float weight)
+/* A view pixel that goes into a photograph pixel. */
+struct tap { size_t index; float weight; };
+
+/* The four view pixels around a position, those inside the view. Returns the new count of taps. */
+static int add_taps(struct tap *taps, int count, struct vec2 v, float weight, int width, int height)
 {
     double left = floor(v.x - 0.5), top = floor(v.y - 0.5);
-    int width = r->in->width_px, height = r->in->height_px;
-    if (!(left >= -1 && left < width && top >= -1 && top < height)) return;
+    if (!(left >= -1 && left < width && top >= -1 && top < height)) return count;
     int x0 = (int)left, y0 = (int)top;
     float fx = (float)(v.x - 0.5 - left), fy = (float)(v.y - 0.5 - top);
     for (int j = 0; j < 2; j++)
@@ -40,20 +43,17 @@ static void add_sample(const struct resampling *r, size_t pixel, struct vec2 v, 
             int x = x0 + i, y = y0 + j;
             if (x < 0 || y < 0 || x >= width || y >= height) continue;
             float w = weight * (i ? fx : 1 - fx) * (j ? fy : 1 - fy);
-            for (size_t k = 0; k < r->n; k++) {
-                const float *from = image_f32(&r->in[k], x, y);
-                float *to = (float *)r->out[k].data + pixel;
-                for (int c = 0; c < 4; c++) to[c] += w * from[c];
-            }
+            taps[count++] = (struct tap){ ((size_t)y * (size_t)width + (size_t)x) * 4, w };
         }
+    return count;
 }
 
-/* As many samples across as the pixel's footprint has view pixels: a lens may spread
- * the view's pixels so that several fall into one of the photograph's. */
+/* As many samples across as the pixel's footprint has view pixels, rounded: each sample spans
+ * about one. Where a lens squeezes the view, several fall into one photograph pixel. */
 static int samples_across(double dx, double dy)
 {
-    double n = ceil(hypot(dx, dy) - 0.05);
-    return n < 1 ? 1 : n > 16 ? 16 : (int)n;
+    double n = ceil(hypot(dx, dy) - 0.5);
+    return n < 1 ? 1 : n > SAMPLES_MAX ? SAMPLES_MAX : (int)n;
 }
 
 static void fill_cell(const struct resampling *r, const struct cell *cell)
@@ -63,15 +63,23 @@ static void fill_cell(const struct resampling *r, const struct cell *cell)
     int nx = samples_across((v[0][1].x - v[0][0].x) / width, (v[0][1].y - v[0][0].y) / width);
     int ny = samples_across((v[1][0].x - v[0][0].x) / height, (v[1][0].y - v[0][0].y) / height);
     float weight = 1 / (float)(nx * ny);
+    struct tap taps[SAMPLES_MAX * SAMPLES_MAX * 4];
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
-            size_t row = (size_t)(cell->y0 + y - r->view->window_px.y0);
-            size_t column = (size_t)(cell->x0 + x - r->view->window_px.x0);
-            size_t pixel = (row * (size_t)r->out->width_px + column) * 4;
+            int count = 0;
             for (int j = 0; j < ny; j++)
                 for (int i = 0; i < nx; i++)
-                    add_sample(r, pixel, cell_map(cell, (x + (i + 0.5) / nx) / width, (y + (j + 0.5) / ny) / height),
-                               weight);
+                    count = add_taps(taps, count, cell_map(cell, (x + (i + 0.5) / nx) / width, (y + (j + 0.5) / ny) / height),
+                                     weight, r->in->width_px, r->in->height_px);
+            for (size_t k = 0; k < r->n; k++) {
+                float sum[4] = { 0 };
+                for (int t = 0; t < count; t++) {
+                    const float *from = (const float *)r->in[k].data + taps[t].index;
+                    for (int c = 0; c < 4; c++) sum[c] += taps[t].weight * from[c];
+                }
+                int column = cell->x0 + x - r->view->window_px.x0, row = cell->y0 + y - r->view->window_px.y0;
+                memcpy(image_f32(&r->out[k], column, row), sum, sizeof sum);
+            }
         }
 }
 
