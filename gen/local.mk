@@ -7,6 +7,7 @@ gen_libgen_a_SOURCES = \
   %D%/entity.c %D%/entity.h \
   %D%/footprint.c %D%/footprint.h \
   %D%/gltf.cpp %D%/gltf.h \
+  %D%/frame.c %D%/frame.h \
   %D%/ground.c %D%/ground.h \
   %D%/label.c %D%/label.h \
   %D%/light.c %D%/light.h \
@@ -38,3 +39,9 @@ gen_libgen_a_SOURCES = \
   %D%/yaml.c %D%/yaml.h
 GEN_LIBS = gen/libgen.a $(LIB_LIBS) $(GEOGRAPHIC_LIBS) $(TINYGLTF_LIBS) $(ASSIMP_LIBS) $(EMBREE_LIBS) $(ERFA_LIBS) $(YAML_LIBS)
 
+
+bin_PROGRAMS += staffage-gen
+staffage_gen_CPPFLAGS = $(AM_CPPFLAGS) -DPKGDATADIR='"$(pkgdatadir)"'
+staffage_gen_SOURCES = %D%/main.c
+nodist_EXTRA_staffage_gen_SOURCES = dummy.cxx
+staffage_gen_LDADD = $(GEN_LIBS)

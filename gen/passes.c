@@ -38,6 +38,12 @@ void model_include_name(char name[MODEL_NAME_SIZE], size_t model_index, const st
     snprintf(name, MODEL_NAME_SIZE, "Model_%zu_%016llx", model_index, (unsigned long long)hash);
 }
 
+/* What lets light through: 0 for all but glass and blended surfaces. */
+static double transmittance(const struct material *m)
+{
+    return m->transmission > 0 ? m->transmission : m->alpha_mode == ALPHA_BLEND ? 1 - m->alpha : 0;
+}
+
 static bool write_pigment(struct sdl *sdl, const char *out_folder, const struct model *model, size_t index,
                           const double *paint, struct error *err)
 {
@@ -64,10 +70,9 @@ static bool write_pigment(struct sdl *sdl, const char *out_folder, const struct 
     } else {
         const double *rgb = paint && m->kind == FINISH_PAINT ? paint : m->base_color;
         sdl_color(sdl, rgb);
-        double transmit = m->transmission > 0 ? m->transmission : m->alpha_mode == ALPHA_BLEND ? 1 - m->alpha : 0;
-        if (transmit > 0) {
+        if (transmittance(m) > 0) {
             sdl_word(sdl, "transmit");
-            sdl_number(sdl, transmit);
+            sdl_number(sdl, transmittance(m));
         }
     }
     sdl_end(sdl);
@@ -131,7 +136,7 @@ bool model_include_write(const char *out_folder, size_t model_index, const struc
     model_include_name(name, model_index, entity);
     struct sdl sdl;
     sdl_init(&sdl);
-    sdl_header(&sdl, "a model in one colour: metres, x forward, y left, z up. Needs materials.inc");
+    sdl_header(&sdl, "a model in one colour: metres, x forward, y left, z up. Needs materials.inc, Shapes_Only");
     sdl_declare(&sdl, name);
     sdl_begin(&sdl, "union");
     bool ok = true;
@@ -141,6 +146,18 @@ bool model_include_write(const char *out_folder, size_t model_index, const struc
         bool textured = mesh->uv && material->base_image.data;
         sdl_begin(&sdl, "mesh2");
         write_mesh(&sdl, mesh, textured);
+        /* A texture that stops all light need not be read to know the shadow. */
+        bool shape_tells = !textured || material->alpha_mode == ALPHA_OPAQUE;
+        if (shape_tells) {
+            sdl_if(&sdl, "Shapes_Only");
+            sdl_begin(&sdl, "pigment");
+            sdl_word(&sdl, "rgb");
+            sdl_number(&sdl, 0.5);
+            sdl_word(&sdl, "transmit");
+            sdl_number(&sdl, transmittance(material));
+            sdl_end(&sdl);
+            sdl_else(&sdl);
+        }
         if (textured) {
             sdl_word(&sdl, "uv_mapping");
             sdl_newline(&sdl);
@@ -149,6 +166,7 @@ bool model_include_write(const char *out_folder, size_t model_index, const struc
         ok = write_pigment(&sdl, out_folder, model, mesh->material, paint, err);
         write_finish(&sdl, material);
         sdl_end(&sdl);
+        if (shape_tells) sdl_endif(&sdl);
         sdl_end(&sdl);
     }
     sdl_end(&sdl);
@@ -209,10 +227,11 @@ static void write_light(struct sdl *sdl, const struct passes *p, const struct pa
     free(sky);
 }
 
-static void write_entities(struct sdl *sdl, const struct passes *p)
+static void write_entities(struct sdl *sdl, const struct passes *p, bool shapes_only)
 {
     char name[MODEL_NAME_SIZE], other[MODEL_NAME_SIZE], path[sizeof MODELS_FOLDER + MODEL_NAME_SIZE + 8];
     sdl_include(sdl, "materials.inc");
+    sdl_declare_number(sdl, "Shapes_Only", shapes_only);
     for (size_t i = 0; i < p->entity_count; i++) {
         model_include_name(name, p->model_index[i], &p->entities[i]);
         bool seen = false;
@@ -279,7 +298,7 @@ static bool write_pass(const char *frame_folder, const char *name, const struct 
     sdl_declare_color(&sdl, "Ground_Albedo", scene->ground_albedo);
     sdl_declare_number(&sdl, "Ground_Reflection", scene->ground_reflection);
     sdl_include(&sdl, "ground.inc");
-    if (entities) write_entities(&sdl, p);
+    if (entities) write_entities(&sdl, p, receivers && scene->ground_reflection <= 0);
     if (receivers) write_receivers(&sdl, p);
     else {
         sdl_declare_vector(&sdl, "Ground_Normal", scene->ground.normal);

@@ -18,8 +18,8 @@ struct receiver {
     size_t corners;
 };
 
-/* The ground around an entity as far as it takes away more than about a hundredth of the sky's
- * light (2.5 times its height), together with its shadow in the sun.
+/* The ground around an entity as far as it takes away more than about a hundredth of the light
+ * (2.5 times its height under an overcast sky), together with its shadow in the sun.
  * Err: ERR_MEMORY */
 bool receiver_create(struct receiver *receiver, const struct entity *entity, const struct plane *ground,
                      const struct light *light, struct error *err);

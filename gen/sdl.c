@@ -209,6 +209,29 @@ void sdl_declare_string(struct sdl *sdl, const char *name, const char *value)
     sdl_semicolon(sdl);
 }
 
+static void directive(struct sdl *sdl, const char *text)
+{
+    if (!sdl->line_start) sdl_newline(sdl);
+    append(sdl, text, strlen(text));
+}
+
+void sdl_if(struct sdl *sdl, const char *name)
+{
+    directive(sdl, "#if (");
+    sdl_word(sdl, name);
+    append(sdl, ")\n", 2);
+}
+
+void sdl_else(struct sdl *sdl)
+{
+    directive(sdl, "#else\n");
+}
+
+void sdl_endif(struct sdl *sdl)
+{
+    directive(sdl, "#end\n");
+}
+
 void sdl_matrix(struct sdl *sdl, struct pose p)
 {
     sdl_word(sdl, "matrix");

@@ -48,6 +48,10 @@ void sdl_declare_number(struct sdl *sdl, const char *name, double value);
 void sdl_declare_vector(struct sdl *sdl, const char *name, struct vec3 value);
 void sdl_declare_color(struct sdl *sdl, const char *name, const double rgb[3]);
 void sdl_declare_string(struct sdl *sdl, const char *name, const char *value);
+/* `#if (NAME)` ... `#else` ... `#end` */
+void sdl_if(struct sdl *sdl, const char *name);
+void sdl_else(struct sdl *sdl);
+void sdl_endif(struct sdl *sdl);
 /* `matrix <...>`: POV-Ray multiplies rows, so the rotation is written transposed. */
 void sdl_matrix(struct sdl *sdl, struct pose world_from_local);
 /* `#include "PATH"` */

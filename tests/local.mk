@@ -71,4 +71,9 @@ tests_lib_manifest_test_SOURCES = %D%/lib/manifest.c %D%/tap.h
 nodist_EXTRA_tests_lib_manifest_test_SOURCES = dummy.cxx
 tests_lib_manifest_test_LDADD = $(LIB_LIBS)
 
+check_PROGRAMS += tests/gen/passes.test
+tests_gen_passes_test_SOURCES = %D%/gen/passes.c %D%/tap.h
+nodist_EXTRA_tests_gen_passes_test_SOURCES = dummy.cxx
+tests_gen_passes_test_LDADD = $(GEN_LIBS)
+
 TESTS += $(check_PROGRAMS) $(dist_check_SCRIPTS)

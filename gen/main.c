@@ -1,0 +1,165 @@
+/* staffage-gen: options in, one call, an exit code out. */
+#include "gen/frame.h"
+#include "gen/makefile.h"
+#include "gen/passes.h"
+#include "gen/scene.h"
+#include "lib/error.h"
+#include "lib/file.h"
+
+#include <getopt.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char help[] =
+    "Usage: staffage-gen SCENE.yaml -o OUT [option ...]\n"
+    "Write the POV-Ray scenes, label layers and manifest of every frame of a scene.\n"
+    "\n"
+    "  -o, --output OUT      the output folder\n"
+    "      --frames A:B      only frames A to B-1, by their number\n"
+    "      --quality NAME    draft, standard or high: over the scene's own\n"
+    "      --seed N          over the scene's own\n"
+    "      --keys            print every key of a scene file: path, type, unit, default\n"
+    "  -h, --help            this text\n"
+    "  -V, --version         the version\n"
+    "\n"
+    "Frames that are there from the same input are left alone. `staffage run` does this\n"
+    "and the rest. Exit status: 0 done, 1 wrong input, 2 wrong usage, 3 a bug of ours.\n";
+
+struct options {
+    const char *scene, *out;
+    int first, end;  /* frames by number, end excluded */
+    int quality;     /* -1: the scene's */
+    bool has_seed;
+    int seed;
+};
+
+static int usage(const char *what, const char *value)
+{
+    fprintf(stderr, "staffage-gen: %s%s%s (staffage-gen --help)\n", what, value ? ": " : "", value ? value : "");
+    return 2;
+}
+
+static bool parse_int(int *value, const char *text, const char **end)
+{
+    char *stop;
+    long v = strtol(text, &stop, 10);
+    if (stop == text || v < 0 || v > INT_MAX) return false;
+    *value = (int)v;
+    *end = stop;
+    return true;
+}
+
+static const char *data_folder(void)
+{
+    const char *given = getenv("STAFFAGE_DATADIR");
+    return given && *given ? given : PKGDATADIR;
+}
+
+static bool generate(const struct options *o, struct error *err)
+{
+    struct scene *scene = NULL;
+    struct generator *generator = NULL;
+    struct frame_result *results = NULL;
+    struct makefile_frame *entries = NULL;
+    size_t *chosen = NULL, n = 0, kept = 0, made = 0;
+    char *templates = string_format("%s/templates", data_folder());
+    char *rules = string_format("%s/templates/materials.rules", data_folder());
+    bool ok = false;
+    if (!scene_read(&scene, o->scene, err)) goto out;
+    if (o->quality >= 0) scene->quality = (enum quality)o->quality;
+    if (o->has_seed) scene->seed = o->seed;
+    if (!generator_create(&generator, scene, o->out, rules, err)) goto out;
+    for (size_t i = 0; i < generator_warning_count(generator); i++)
+        fprintf(stderr, "staffage-gen: warning: %s\n", generator_warning(generator, i));
+
+    size_t count = generator_frame_count(generator);
+    results = calloc(count + 1, sizeof *results);
+    entries = calloc(count + 1, sizeof *entries);
+    chosen = calloc(count + 1, sizeof *chosen);
+    if (!results || !entries || !chosen) {
+        error_set(err, ERR_MEMORY, "no memory for the frames");
+        goto out;
+    }
+    for (size_t i = 0; i < count; i++) {
+        char name[FRAME_NAME_SIZE];
+        generator_frame_name(name, generator, i);
+        int number = atoi(name);
+        if (number >= o->first && number < o->end) chosen[n++] = i;
+    }
+    if (n == 0) {
+        error_set(err, ERR_INPUT, "--frames %d:%d: the scene has no frame in that range", o->first, o->end);
+        goto out;
+    }
+    if (!generator_prepare(generator, chosen, n, err)) goto out;
+    struct pass_settings settings = pass_settings(scene->quality, scene->sky);
+    for (size_t i = 0; i < n; i++) {
+        if (!generator_frame(&results[i], generator, chosen[i], err)) goto out;
+        entries[i] = (struct makefile_frame){
+            .name = results[i].name, .empty = results[i].empty,
+            .width_px = results[i].view_width_px, .height_px = results[i].view_height_px,
+            .options = { settings.object_antialias, "-A", settings.shadow_antialias },
+        };
+        *(results[i].kept ? &kept : &made) += 1;
+    }
+    ok = generator_write_run(generator, results, n, err) &&
+         makefile_write(o->out, templates, entries, n, err);
+    if (ok) printf("staffage: generated %zu frame%s, %zu unchanged\n", made, made == 1 ? "" : "s", kept);
+out:
+    free(chosen);
+    free(entries);
+    free(results);
+    generator_destroy(generator);
+    scene_destroy(scene);
+    free(rules);
+    free(templates);
+    return ok;
+}
+
+int main(int argc, char **argv)
+{
+    enum { FRAMES = 256, QUALITY, SEED, KEYS };
+    static const struct option longs[] = {
+        { "output", required_argument, NULL, 'o' },  { "frames", required_argument, NULL, FRAMES },
+        { "quality", required_argument, NULL, QUALITY }, { "seed", required_argument, NULL, SEED },
+        { "keys", no_argument, NULL, KEYS },         { "help", no_argument, NULL, 'h' },
+        { "version", no_argument, NULL, 'V' },       { 0 },
+    };
+    static const char *const qualities[] = { "draft", "standard", "high" };
+    struct options o = { .end = INT_MAX, .quality = -1 };
+    const char *end;
+    for (int c; (c = getopt_long(argc, argv, "o:hV", longs, NULL)) != -1;) switch (c) {
+        case 'o': o.out = optarg; break;
+        case FRAMES:
+            if (!parse_int(&o.first, optarg, &end) || *end != ':' || !parse_int(&o.end, end + 1, &end) || *end)
+                return usage("--frames takes A:B, two frame numbers", optarg);
+            break;
+        case QUALITY:
+            for (int i = 0; i < 3; i++)
+                if (!strcmp(optarg, qualities[i])) o.quality = i;
+            if (o.quality < 0) return usage("--quality takes draft, standard or high", optarg);
+            break;
+        case SEED:
+            if (!parse_int(&o.seed, optarg, &end) || *end) return usage("--seed takes a whole number from 0", optarg);
+            o.has_seed = true;
+            break;
+        case KEYS: {
+            char *keys = scene_schema_text();
+            if (!keys) return 3;
+            fputs(keys, stdout);
+            free(keys);
+            return 0;
+        }
+        case 'h': fputs(help, stdout); return 0;
+        case 'V': puts("staffage-gen " PACKAGE_VERSION); return 0;
+        default: return 2;
+        }
+    if (optind + 1 != argc) return usage("one scene file is needed", NULL);
+    if (!o.out) return usage("an output folder is needed: -o OUT", NULL);
+    o.scene = argv[optind];
+
+    struct error err = ERROR_NONE;
+    if (!generate(&o, &err)) error_print(&err, "staffage-gen");
+    return error_exit_status(&err);
+}
