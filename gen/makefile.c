@@ -36,6 +36,12 @@ static const char povray_conf[] =
     "read* = .\n"
     "read+write* = frames\n";
 
+/* What staffage-post writes of every frame, as folder and ending. */
+static const char *const outputs[][2] = {
+    { "rgb", "png" }, { "semantic", "png" }, { "semantic_id", "png" }, { "instance", "png" },
+    { "depth", "png" }, { "depth", "exr" }, { "amodal", "json" }, { "labels", "json" },
+};
+
 static bool is_frame_name(const char *name)
 {
     return name[0] && strspn(name, "0123456789") == strlen(name);
@@ -57,18 +63,29 @@ static void write_pass(FILE *f, const struct makefile_frame *frame, int pass)
             frame->name, pass_names[pass], frame->width_px, frame->height_px, *options ? " " : "", options);
 }
 
+static void write_passes(FILE *f, const struct makefile_frame *frame)
+{
+    if (frame->empty) return;
+    for (int p = 0; p < PASS_COUNT; p++) fprintf(f, " frames/%s/%s.exr", frame->name, pass_names[p]);
+}
+
+static void write_outputs(FILE *f, const struct makefile_frame *frame)
+{
+    for (size_t i = 0; i < sizeof outputs / sizeof *outputs; i++)
+        fprintf(f, "%s%s/%s.%s", i ? " " : "", outputs[i][0], frame->name, outputs[i][1]);
+}
+
 static void write_frame(FILE *f, const struct makefile_frame *frame)
 {
-    fprintf(f, "\npost: rgb/%s.png\n", frame->name);
-    if (!frame->empty) {
-        fprintf(f, "render:");
-        for (int p = 0; p < PASS_COUNT; p++) fprintf(f, " frames/%s/%s.exr", frame->name, pass_names[p]);
-        fprintf(f, "\n");
-        for (int p = 0; p < PASS_COUNT; p++) write_pass(f, frame, p);
-    }
-    fprintf(f, "rgb/%1$s.png: frames/%1$s/frame.json", frame->name);
-    if (!frame->empty)
-        for (int p = 0; p < PASS_COUNT; p++) fprintf(f, " frames/%s/%s.exr", frame->name, pass_names[p]);
+    fprintf(f, "\nrender:");
+    write_passes(f, frame);
+    fprintf(f, "\npost: ");
+    write_outputs(f, frame);
+    fprintf(f, "\n");
+    for (int p = 0; p < PASS_COUNT && !frame->empty; p++) write_pass(f, frame, p);
+    write_outputs(f, frame);
+    fprintf(f, " &: frames/%s/frame.json", frame->name);
+    write_passes(f, frame);
     fprintf(f, "\n\t@$(STAFFAGE_POST) . --frame %1$s\n\t@echo staffage: frame %1$s\n", frame->name);
 }
 

@@ -4,7 +4,8 @@
  *
  * Targets: `render` the passes, `post` (= `all`) the pictures and labels, and the passes
  * that these still need. A frame's passes are made again when one of its .pov files, its
- * frame.json or a template is newer; its pictures when a pass or frame.json is.
+ * frame.json or a template is newer; its pictures
+ * and labels when a pass or frame.json is, or when one of them is missing.
  *
  * Programs come from the environment: STAFFAGE_POVRAY and STAFFAGE_POST, by default
  * staffage-povray and staffage-post from PATH. Each finished target prints one line,

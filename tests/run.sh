@@ -46,6 +46,10 @@ run "$staffage" run balls.yaml -o two
 check "a pass that is missing is made again" says '^2 frames in'
 check "what is there is left alone" is "$(stat -c %Y.%y two/frames/000001/object.exr)" "$before"
 
+rm two/labels/000001.json two/depth/000003.exr
+run "$staffage" run balls.yaml -o two
+check "labels that are missing are made again" test $status = 0 -a -f two/labels/000001.json -a -f two/depth/000003.exr
+
 printf '000001 0.9\n000002 0.6\n000003 0\n' >balls.yaml
 run "$staffage" run balls.yaml -o two
 check "a frame that changed is made again, the others are not" says '^1 frames in'
