@@ -20,8 +20,12 @@ struct reading { struct scene *scene; const char *path; struct error *err; };
 
 static double rad_from_deg(double deg) { return deg * M_PI / 180; }
 static struct source source_of(const struct yaml_node *node) { return (struct source){ node->line, node->column }; }
-static double number_at(const struct yaml_node *mapping, const char *key) { return schema_number(yaml_get(mapping, key)); }
 static bool out_of_memory(const struct reading *r) { return error_set(r->err, ERR_MEMORY, "no memory for a scene"); }
+
+static double number_at(const struct yaml_node *mapping, const char *key)
+{
+    return schema_number(yaml_get(mapping, key));
+}
 
 static bool copy_text(const struct reading *r, char **text, const struct yaml_node *node)
 {
@@ -62,8 +66,9 @@ static bool read_frames(const struct reading *r, const struct yaml_node *frames)
         if (frames->kind == YAML_SEQUENCE) yaml_integer(&frame, frames->items[i]);
         scene->video_frames[i] = frame;
         if (i && scene->video_frames[i - 1] >= frame)
-            return FAIL(r, frames->items[i], "photographs.frames[%zu]: frames must ascend, %d comes after %d", i, frame,
-                        scene->video_frames[i - 1]);
+            return FAIL(r, frames->items[i],
+                        "photographs.frames[%zu]: frames must ascend, %d comes after %d",
+                        i, frame, scene->video_frames[i - 1]);
     }
     return true;
 }
@@ -77,7 +82,8 @@ static bool read_photographs(const struct reading *r, const struct yaml_node *no
     scene->scale = number_at(node, "scale");
     if (frames && !video) return FAIL(r, frames, "photographs.frames: goes with video, not with files");
     if (video && !frames)
-        return FAIL(r, video, "photographs: key \"frames\" is missing (\"first:end:step\" or a list of frame numbers from 0)");
+        return FAIL(r, video,
+                    "photographs: key \"frames\" is missing (\"first:end:step\" or a list of frame numbers from 0)");
     size_t count = video ? 1 : files->count;
     scene->photographs = calloc(count, sizeof *scene->photographs);
     if (!scene->photographs) return out_of_memory(r);
@@ -102,7 +108,8 @@ static bool read_lens(const struct reading *r, struct camera *camera, const stru
         else if (model == CAMERA_PINHOLE)
             memcpy(camera->params, (double[]){ f, f, size[0] / 2, size[1] / 2 }, 4 * sizeof f);
         else
-            return FAIL(r, fov, "camera.horizontal_fov_deg: goes with PINHOLE and SIMPLE_PINHOLE; %s needs params", name);
+            return FAIL(r, fov,
+                        "camera.horizontal_fov_deg: goes with PINHOLE and SIMPLE_PINHOLE; %s needs params", name);
         return true;
     }
     int count = camera_model_param_count(model);
@@ -131,7 +138,8 @@ static void read_place(const struct reading *r, const struct yaml_node *root)
     scene->has_place = place != NULL;
     if (place)
         scene->place = (struct geodetic){ rad_from_deg(number_at(place, "latitude_deg")),
-                                          rad_from_deg(number_at(place, "longitude_deg")), number_at(place, "height_m") };
+                                          rad_from_deg(number_at(place, "longitude_deg")),
+                                          number_at(place, "height_m") };
     scene->has_time = time && !utc_time_parse(&scene->time_utc, time->text);
 }
 
@@ -153,7 +161,8 @@ static bool read_overcast(const struct reading *r, const struct yaml_node *node)
     r->scene->sun = SUN_NONE;
     if (sun->kind == YAML_MAPPING)
         return FAIL(r, sun, "light.sun: an overcast sky shows no sun: remove it, or use \"sky: clear\"");
-    return refuse_given(r, node, of_clear, "light", "has no meaning under an overcast sky: remove it, or use \"sky: clear\"");
+    return refuse_given(r, node, of_clear, "light",
+                        "has no meaning under an overcast sky: remove it, or use \"sky: clear\"");
 }
 
 static bool read_clear(const struct reading *r, const struct yaml_node *node)
@@ -168,9 +177,13 @@ static bool read_clear(const struct reading *r, const struct yaml_node *node)
     }
     /* How bright a clear sky is, and where, follows from the sun. */
     if (!strcmp(sun->text, "none"))
-        return FAIL(r, sun, "light.sun: a clear sky has its light from the sun: \"sun_scale: 0\" takes the sun itself away, \"sky: overcast\" needs none");
+        return FAIL(r, sun,
+                    "light.sun: a clear sky has its light from the sun: \"sun_scale: 0\" takes the sun itself away, "
+                    "\"sky: overcast\" needs none");
     if (!scene->has_place || !scene->has_time)
-        return FAIL(r, yaml_get(node, "sky"), "light: a clear sky needs its sun, and %s missing: give place and time, or light.sun as {azimuth_deg, elevation_deg}",
+        return FAIL(r, yaml_get(node, "sky"),
+                    "light: a clear sky needs its sun, and %s missing: give place and time, or light.sun as "
+                    "{azimuth_deg, elevation_deg}",
                     scene->has_place ? "time is" : scene->has_time ? "place is" : "place and time are");
     scene->sun = SUN_BY_TIME;
     return true;
@@ -264,7 +277,8 @@ static enum axis read_axis(const struct yaml_node *node)
     return i <= AXIS_NEG_Z ? (enum axis)i : (enum axis)(2 * (i - AXIS_NEG_Z - 1));
 }
 
-static bool read_model(const struct reading *r, struct scene_model *model, const char *name, const struct yaml_node *node)
+static bool read_model(const struct reading *r, struct scene_model *model, const char *name,
+                       const struct yaml_node *node)
 {
     const struct yaml_node *file = yaml_get(node, "file"), *class_ = yaml_get(node, "class");
     const struct yaml_node *up = yaml_get(node, "up"), *front = yaml_get(node, "front");
@@ -277,8 +291,9 @@ static bool read_model(const struct reading *r, struct scene_model *model, const
     if (!copy_path(r, &model->file, file)) return false;
     bool stated = format_has_units(file->text);
     if (!stated && !unit && !length && !height)
-        return FAIL(r, node, "models.%.60s: how large is it? A file of this format does not say: give one of unit_m, length_m, height_m",
-                    name);
+        return FAIL(r, node,
+                    "models.%.60s: how large is it? A file of this format does not say: give one of unit_m, "
+                    "length_m, height_m", name);
     if (unit) options->unit_m = schema_number(unit);
     if (length) options->length_m = schema_number(length);
     if (height) options->height_m = schema_number(height);
@@ -290,7 +305,8 @@ static bool read_model(const struct reading *r, struct scene_model *model, const
         options->up = read_axis(up);
         options->front = read_axis(front);
         if (options->up / 2 == options->front / 2)
-            return FAIL(r, front, "models.%.60s: up (%s) and front (%s) lie on one axis", name, up->text, front->text);
+            return FAIL(r, front,
+                        "models.%.60s: up (%s) and front (%s) lie on one axis", name, up->text, front->text);
     }
     model->has_class = class_ != NULL;
     if (class_) model->class_ = (enum entity_class)schema_choice(class_choice_name, class_);
@@ -323,10 +339,12 @@ static bool find_model(const struct reading *r, struct scene_entity *entity, con
         nearest_offer(&nearest, name->text, scene->models[i].name);
     }
     if (nearest.name)
-        return FAIL(r, name, "entity \"%s\": unknown model \"%.80s\" (did you mean \"%s\"?)", entity->name, name->text,
-                    nearest.name);
-    return FAIL(r, name, "entity \"%s\": unknown model \"%.80s\" (it must be one of the names under models)", entity->name,
-                name->text);
+        return FAIL(r, name,
+                    "entity \"%s\": unknown model \"%.80s\" (did you mean \"%s\"?)",
+                    entity->name, name->text, nearest.name);
+    return FAIL(r, name,
+                "entity \"%s\": unknown model \"%.80s\" (it must be one of the names under models)",
+                entity->name, name->text);
 }
 
 static bool read_at(const struct reading *r, struct scene_entity *entity, const struct yaml_node *at)
@@ -336,7 +354,8 @@ static bool read_at(const struct reading *r, struct scene_entity *entity, const 
     const struct yaml_node *latitude = yaml_get(at, "latitude_deg"), *longitude = yaml_get(at, "longitude_deg");
     entity->at_source = source_of(world ? world : pixel ? pixel : latitude);
     if (!latitude != !longitude)
-        return FAIL(r, latitude ? latitude : longitude, "entity \"%s\": latitude_deg and longitude_deg go together", entity->name);
+        return FAIL(r, latitude ? latitude : longitude,
+                    "entity \"%s\": latitude_deg and longitude_deg go together", entity->name);
     if (latitude && !scene->has_place)
         return FAIL(r, latitude, "entity \"%s\": a latitude needs the scene's place", entity->name);
     if (world || pixel) {
@@ -367,7 +386,8 @@ static bool read_entity(const struct reading *r, struct scene_entity *entity, co
     else if (of->has_class)
         entity->class_ = of->class_;
     else
-        return FAIL(r, node, "entity \"%s\": class is missing, and its model \"%.80s\" has none", entity->name, of->name);
+        return FAIL(r, node,
+                    "entity \"%s\": class is missing, and its model \"%.80s\" has none", entity->name, of->name);
     entity->heading_rad = rad_from_deg(number_at(node, "heading_deg"));
     entity->has_color = color != NULL;
     if (color) read_color(entity->color, color);
@@ -479,7 +499,8 @@ static bool check_version(const struct reading *r, const struct yaml_node *root)
     const struct yaml_node *node = yaml_get(root, "staffage");
     int version;
     if (!node || !yaml_integer(&version, node) || version < 1 || version == SCENE_VERSION) return true;
-    return FAIL(r, node, "staffage: version %d of the scene format; this program reads version %d", version, SCENE_VERSION);
+    return FAIL(r, node,
+                "staffage: version %d of the scene format; this program reads version %d", version, SCENE_VERSION);
 }
 
 bool scene_read(struct scene **out, const char *path, struct error *err)

@@ -27,7 +27,8 @@ static bool read_world_axes(const struct reading *r, struct mat3 *world_from_fil
     for (int i = 0; i < 3; i++) column[i] = directions[schema_choice(world_direction_name, axes->items[i])];
     struct mat3 columns = mat3_from_columns(column[0], column[1], column[2]);
     if (mat3_orthonormality(columns) > 0)
-        return FAIL(r, axes, "camera.pose.world_axes: one each of east or west, north or south, up or down is needed");
+        return FAIL(r, axes,
+                    "camera.pose.world_axes: one each of east or west, north or south, up or down is needed");
     *world_from_file = columns;
     return true;
 }
@@ -58,13 +59,15 @@ static bool read_matrix(const struct reading *r, struct mat3 *rotation, const st
     for (int i = 0; i < 3; i++) schema_numbers(m.m[i], 3, rows->items[i]);
     double off = mat3_orthonormality(m);
     if (!(off <= ROUNDING))
-        return FAIL(r, rows, "camera.pose.%s: not a rotation: its rows must have length 1 and be at right angles, these are off by %.2g",
-                    key, off);
+        return FAIL(r, rows,
+                    "camera.pose.%s: not a rotation: its rows must have length 1 and be at right angles, these are "
+                    "off by %.2g", key, off);
     *rotation = straighten(m);
     return true;
 }
 
-static bool read_quaternion(const struct reading *r, struct mat3 *rotation, const struct yaml_node *wxyz, const char *key)
+static bool read_quaternion(const struct reading *r, struct mat3 *rotation, const struct yaml_node *wxyz,
+                            const char *key)
 {
     double q[4];
     schema_numbers(q, 4, wxyz);
@@ -84,7 +87,8 @@ static bool read_transform(const struct reading *r, struct pose *pose, const str
     if (matrix->count == 4) {
         schema_numbers(row, 4, matrix->items[3]);
         for (int j = 0; j < 4; j++)
-            if (row[j] != last[j]) return FAIL(r, matrix->items[3], "camera.pose.matrix[3]: the last row must be [0, 0, 0, 1]");
+            if (row[j] != last[j])
+                return FAIL(r, matrix->items[3], "camera.pose.matrix[3]: the last row must be [0, 0, 0, 1]");
     }
     double t[3];
     for (int i = 0; i < 3; i++) {
@@ -135,7 +139,8 @@ static bool read_look_at(const struct reading *r, struct pose *world_from_camera
     struct vec3 right = vec3_cross(forward, vec3_unit(up));
     if (vec3_norm(right) < 1e-6)
         return FAIL(r, up_given ? up_given : target,
-                    "camera.pose.look_at: the view goes along up: give another \"up\" (what points to the top of the picture)");
+                    "camera.pose.look_at: the view goes along up: give another \"up\" (what points to the "
+                    "top of the picture)");
     right = vec3_unit(right);
     struct vec3 down = vec3_cross(forward, right);
     double roll = schema_number(yaml_get(node, "roll_deg")) * M_PI / 180, c = cos(roll), s = sin(roll);
@@ -170,7 +175,8 @@ bool scene_pose(struct pose *world_from_camera, const struct yaml_node *node, co
     struct mat3 rotation = mat3_multiply(world_from_file, mat3_multiply(pose.rotation, to_camera));
     if (mat3_determinant(rotation) < 0)
         return FAIL(&r, matrix ? matrix : inverse ? inverse : position,
-                    "camera.pose: mirrors (determinant -1) with axes %s and world_axes [%s, %s, %s]: one of them is not what these figures are in",
+                    "camera.pose: mirrors (determinant -1) with axes %s and world_axes [%s, %s, %s]: one of "
+                    "them is not what these figures are in",
                     axes->text, world_axes->items[0]->text, world_axes->items[1]->text, world_axes->items[2]->text);
     *world_from_camera = (struct pose){ rotation, mat3_apply(world_from_file, pose.translation) };
     return true;

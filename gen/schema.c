@@ -88,11 +88,12 @@ static bool unknown_choice(const struct check *c, const struct schema_key *key, 
     struct nearest nearest = { NULL, 0 };
     for (int i = 0; key->choice(i); i++) nearest_offer(&nearest, node->text, key->choice(i));
     if (nearest.name)
-        return report(c, node->line, node->column, &parent, "unknown %s \"%.80s\" (did you mean \"%s\"?)", name, node->text,
-                      nearest.name);
+        return report(c, node->line, node->column, &parent,
+                      "unknown %s \"%.80s\" (did you mean \"%s\"?)", name, node->text, nearest.name);
     struct schema_key single = *key;
     if (single.types & TYPE_CHOICES) single.types = TYPE_CHOICE;
-    return report(c, node->line, node->column, &parent, "unknown %s \"%.80s\" (%s)", name, node->text, words_type(&single).text);
+    return report(c, node->line, node->column, &parent,
+                  "unknown %s \"%.80s\" (%s)", name, node->text, words_type(&single).text);
 }
 
 static bool unknown_key(const struct check *c, const struct where *where, const struct yaml_node *mapping, size_t i)
@@ -285,7 +286,8 @@ static bool check_mapping(const struct check *c, const struct where *where, cons
         const struct schema_key *key = &c->schema->keys[k];
         const char *name = schema_child(key->path, where->table);
         if (name && key->presence == REQUIRED && !yaml_get(mapping, name))
-            return report(c, mapping->line, mapping->column, where, "key \"%s\" is missing (%s)", name, words_type(key).text);
+            return report(c, mapping->line, mapping->column, where,
+                          "key \"%s\" is missing (%s)", name, words_type(key).text);
     }
     return check_group(c, where, mapping, ONE_OF) && check_group(c, where, mapping, AT_MOST_ONE_OF);
 }
@@ -295,8 +297,8 @@ bool schema_check(const struct schema *schema, const struct yaml_node *root, con
     struct check c = { schema, file, err };
     struct where top = { "", "" };
     if (root->kind != YAML_MAPPING)
-        return error_at(err, ERR_INPUT, file, root->line, root->column,
-                        "expected \"key: value\" lines, as in docs/scene.md");
+        return report(&c, root->line, root->column, &top, "expected mapping (\"key: value\" lines), found %s",
+                      words_found(root).text);
     return check_mapping(&c, &top, root);
 }
 
@@ -325,12 +327,12 @@ static bool fill_mapping(const struct schema *schema, const struct where *where,
         struct where below = where_key(where, mapping->keys[i].text, "");
         const struct schema_key *key = find(schema, below.table);
         assert(key); /* the tree is checked */
-        struct where named = where_key(&below, "NAME", ""), listed = where_item(&below, 0);
-        if (item->kind == YAML_MAPPING && key->types & TYPE_MAPPING && !fill_mapping(schema, &below, item, err)) return false;
-        for (size_t j = 0; item->kind == YAML_MAPPING && key->types & TYPE_NAMED && j < item->count; j++)
-            if (!fill_mapping(schema, &named, item->items[j], err)) return false;
-        for (size_t j = 0; item->kind == YAML_SEQUENCE && key->types & TYPE_ITEMS && j < item->count; j++)
-            if (!fill_mapping(schema, &listed, item->items[j], err)) return false;
+        bool named = key->types & TYPE_NAMED, listed = key->types & TYPE_ITEMS;
+        if (item->kind == YAML_MAPPING && !named && !fill_mapping(schema, &below, item, err)) return false;
+        if (!named && !listed) continue;
+        below = named ? where_key(&below, "NAME", "") : where_item(&below, 0);
+        for (size_t j = 0; j < item->count; j++)
+            if (!fill_mapping(schema, &below, item->items[j], err)) return false;
     }
     return true;
 }
@@ -366,8 +368,8 @@ int schema_choice(const char *(*choice)(int i), const struct yaml_node *node)
 bool schema_color(double linear[3], const struct yaml_node *node)
 {
     const char *text = node->text;
-    if (node->kind != YAML_SCALAR || strlen(text) != 7 || text[0] != '#' || strspn(text + 1, "0123456789abcdefABCDEF") != 6)
-        return false;
+    if (node->kind != YAML_SCALAR || strlen(text) != 7 || text[0] != '#') return false;
+    if (strspn(text + 1, "0123456789abcdefABCDEF") != 6) return false;
     unsigned long rgb = strtoul(text + 1, NULL, 16);
     for (int i = 0; i < 3; i++) linear[i] = (double)linear_from_srgb((float)((rgb >> (16 - 8 * i)) & 255u) / 255.0f);
     return true;

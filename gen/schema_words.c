@@ -146,11 +146,12 @@ static struct words words_default(const struct schema *schema, const struct sche
     struct words w = { .length = 0 }, parent = { .length = 0 };
     const char *dot = strrchr(key->path, '.');
     words_add(&parent, "%.*s", dot ? (int)(dot - key->path) : 0, key->path);
+    struct words group = words_siblings(schema, parent.text, &key->presence);
     switch (key->presence) {
     case OPTIONAL: words_add(&w, "%s", key->preset ? key->preset : "none"); break;
     case REQUIRED: words_add(&w, "required"); break;
-    case ONE_OF: words_add(&w, "one of %s", words_siblings(schema, parent.text, &key->presence).text); break;
-    case AT_MOST_ONE_OF: words_add(&w, "at most one of %s", words_siblings(schema, parent.text, &key->presence).text); break;
+    case ONE_OF: words_add(&w, "one of %s", group.text); break;
+    case AT_MOST_ONE_OF: words_add(&w, "at most one of %s", group.text); break;
     }
     return w;
 }

@@ -118,7 +118,8 @@ static bool read_node(struct reader *r, struct yaml_node **out, const yaml_event
     if (event_anchor(event))
         return refuse(r, event->start_mark, "anchors (&name) are not understood here: remove it");
     if (event_tag(event))
-        return refuse(r, event->start_mark, "tags (!name) are not understood here: put quotes around a text that starts with \"!\"");
+        return refuse(r, event->start_mark,
+                      "tags (!name) are not understood here: put quotes around a text that starts with \"!\"");
     if (depth > DEPTH_MAX) return refuse(r, event->start_mark, "nested too deeply");
     struct yaml_node *node = calloc(1, sizeof *node);
     if (!node) return error_set(r->err, ERR_MEMORY, "no memory for a scene file");
