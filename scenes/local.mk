@@ -16,3 +16,11 @@ $(OWN_MODELS): %D%/models/made.stamp
 %D%/models/made.stamp: scenes/models/make-models$(EXEEXT)
 	$(AM_V_GEN)scenes/models/make-models$(EXEEXT) %D%/models && touch $@
 CLEANFILES += %D%/models/made.stamp
+
+EXTRA_DIST += %D%/demo/scene.yaml %D%/craig/sunny.yaml %D%/craig/wet.yaml %D%/craig/median.yaml
+.PHONY: demo
+demo: all
+	@test -f $(srcdir)/%D%/demo/vtest.avi || { echo 'demo: %D%/demo/vtest.avi is missing: ./bootstrap fetches it' >&2; exit 1; }
+	@test -f %D%/demo/scene.yaml || { $(MKDIR_P) %D%/demo && cp $(srcdir)/%D%/demo/scene.yaml $(srcdir)/%D%/demo/vtest.avi %D%/demo/; }
+	./staffage run %D%/demo/scene.yaml -o out/demo
+	@echo 'Look at out/demo/rgb/*.png, and at out/demo/semantic, instance and labels beside them.'
