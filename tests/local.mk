@@ -30,6 +30,7 @@ tests_gen_scene_test_SOURCES = %D%/gen/scene.c %D%/tap.h
 nodist_EXTRA_tests_gen_scene_test_SOURCES = dummy.cxx
 tests_gen_scene_test_LDADD = $(GEN_LIBS)
 EXTRA_DIST += %D%/input %D%/invalid
+dist_check_SCRIPTS += %D%/invalid.sh
 
 check_PROGRAMS += tests/gen/ground.test
 tests_gen_ground_test_SOURCES = %D%/gen/ground.c %D%/tap.h

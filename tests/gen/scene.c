@@ -3,8 +3,6 @@
 #include "lib/file.h"
 #include "tests/tap.h"
 
-#include <dirent.h>
-#include <limits.h>
 #include <unistd.h>
 
 /* A path in the source tree; the caller frees. */
@@ -410,40 +408,6 @@ static void a_file_that_is_not_there(void)
     OK(!strcmp(err.file, "no-such/scene.yaml") && strstr(err.text, "No such file"), "with its path and the reason");
 }
 
-/* tests/invalid/NAME/{scene.yaml,error}: what the program prints for the file. */
-static int only_folders(const struct dirent *entry)
-{
-    return entry->d_name[0] != '.';
-}
-
-static void every_invalid_scene_gives_its_message(void)
-{
-    char *invalid = source_path("tests/invalid"), here[PATH_MAX];
-    struct dirent **entries = NULL;
-    int n = scandir(invalid, &entries, only_folders, alphasort), cases = 0;
-    if (!OK(n > 0 && getcwd(here, sizeof here), "there are invalid scenes")) return;
-    for (int i = 0; i < n; i++) {
-        char *path = string_format("%s/%s", invalid, entries[i]->d_name), *want = NULL, got[2048];
-        size_t size;
-        struct error err = ERROR_NONE, ignored = ERROR_NONE;
-        struct scene *scene = NULL;
-        bool ok = chdir(path) == 0 && file_read(&want, &size, "error", &ignored);
-        scene_read(&scene, "scene.yaml", &err);
-        snprintf(got, sizeof got, "%s:%d:%d: %s\n", err.file, err.line, err.column, err.text);
-        OK(ok && !scene && !strcmp(got, want), "%s: %s", entries[i]->d_name, err.text);
-        cases++;
-        scene_destroy(scene);
-        free(want);
-        free(path);
-        free(entries[i]);
-        ok = chdir(here) == 0;
-        if (!ok) break;
-    }
-    OK(cases >= 14, "enough of them");
-    free(entries);
-    free(invalid);
-}
-
 int main(void)
 {
     if (!OK(folder_create(), "a folder to write scenes into")) return tap_done();
@@ -462,7 +426,6 @@ int main(void)
     text_is_not_guessed_to_be_something_else();
     a_cut_off_file_is_refused_in_words();
     a_file_that_is_not_there();
-    every_invalid_scene_gives_its_message();
     free(manual);
     folder_remove();
     return tap_done();
