@@ -15,7 +15,7 @@
 #define H 48
 static const struct rect window = { 16, 8, 48, 40 }; /* 32 x 32 pixels */
 
-static char out[] = "/tmp/staffage-frame-XXXXXX";
+static char out[] = "staffage-frame-XXXXXX";
 static char said[4096]; /* what the last run wrote to stdout and stderr */
 
 /* A path in the output folder, in static storage. */

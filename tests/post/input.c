@@ -8,7 +8,7 @@
 #define W 8
 #define H 6
 
-static char folder[] = "/tmp/staffage-input-XXXXXX";
+static char folder[] = "staffage-input-XXXXXX";
 
 /* Write an image into the folder; the name points into static storage. */
 static const char *file(const char *name, const struct image *image)
