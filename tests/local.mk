@@ -77,4 +77,14 @@ tests_gen_passes_test_SOURCES = %D%/gen/passes.c %D%/tap.h
 nodist_EXTRA_tests_gen_passes_test_SOURCES = dummy.cxx
 tests_gen_passes_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/trace.test
+tests_gen_trace_test_SOURCES = %D%/gen/trace.c %D%/gen/solid.h %D%/tap.h
+nodist_EXTRA_tests_gen_trace_test_SOURCES = dummy.cxx
+tests_gen_trace_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/trace_povray.test
+tests_gen_trace_povray_test_SOURCES = %D%/gen/trace_povray.c %D%/gen/solid.h %D%/tap.h
+nodist_EXTRA_tests_gen_trace_povray_test_SOURCES = dummy.cxx
+tests_gen_trace_povray_test_LDADD = $(GEN_LIBS)
+
 TESTS += $(check_PROGRAMS) $(dist_check_SCRIPTS)
