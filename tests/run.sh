@@ -52,7 +52,7 @@ check "labels that are missing are made again" test $status = 0 -a -f two/labels
 
 printf '000001 0.9\n000002 0.6\n000003 0\n' >balls.yaml
 run "$staffage" run balls.yaml -o two
-check "a frame that changed is made again, the others are not" says '^1 frames in'
+check "a frame that changed is made again, the others are not" says '^1 frame in'
 
 mkdir 'o dd $(x) #1;"'
 run "$staffage" run balls.yaml -o 'o dd $(x) #1;"/b'
@@ -72,7 +72,7 @@ run "$staffage" render out/bad
 check "render: says how many passes failed" says '3 of 3 passes failed'
 printf '000001 0.9\n000002 0.8\n000003 0.7\n' >bad.yaml
 run "$staffage" run bad.yaml
-check "a scene that is mended: only its frame is made" says '^1 frames in'
+check "a scene that is mended: only its frame is made" says '^1 frame in'
 
 printf '000001 0.9\n000002 0.5\n' >refused.yaml
 run "$staffage" run refused.yaml

@@ -1,6 +1,7 @@
 # The Test Anything Protocol for shell tests: source it, call ok, end with tap_done.
 # A test program runs in $work, a fresh folder that goes away with it.
 set -u
+unset MAKEFLAGS MFLAGS MAKELEVEL
 tap_count=0
 tap_failed=0
 work=$(mktemp -d)

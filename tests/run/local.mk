@@ -15,7 +15,7 @@ tests_gen_makefile_test_SOURCES = tests/gen/makefile.c tests/tap.h
 nodist_EXTRA_tests_gen_makefile_test_SOURCES = dummy.cxx
 tests_gen_makefile_test_LDADD = $(GEN_LIBS)
 
-dist_check_SCRIPTS += tests/run.sh
+dist_check_SCRIPTS += tests/run.sh tests/pipeline.sh tests/man.sh
 
 EXTRA_DIST += tests/bench.sh tests/bench/craig-1000x750-4.yaml tests/bench/craig-2000x1500-15.yaml
 .PHONY: bench

@@ -1,0 +1,77 @@
+#!/bin/sh
+# The real programs from scene file to dataset: the same pictures however a run went.
+. "$top_srcdir/tests/tap.sh"
+staffage=$top_builddir/staffage
+cp "$top_srcdir"/tests/input/* "$top_builddir/tests/run/same-pixels" .
+
+for i in 1 2 3; do cp street.png "street$i.png"; done
+sed 's/files: .*/files: [street1.png, street2.png, street3.png]}/' minimal.yaml >street.yaml
+echo 'quality: draft' >>street.yaml
+
+# same_dataset A B: every picture decodes to the same pixels, every label file has the same bytes.
+same_dataset() {
+    ( cd "$1" && find . -path ./frames/home -prune -o -type f -print | sort ) >names
+    ( cd "$2" && find . -path ./frames/home -prune -o -type f -print | sort ) >others
+    cmp names others || return 1
+    while read -r name; do
+        case $name in
+        *.png|*.exr) ./same-pixels "$1/$name" "$2/$name" ;;
+        *) cmp "$1/$name" "$2/$name" ;;
+        esac || return 1
+    done <names
+}
+stamps() { find "$1" -printf '%p %T@ %i\n' | sort; }
+passes() { find "$1/frames" -name object.exr -o -name plane.exr -o -name shadow.exr 2>/dev/null | wc -l; }
+
+run "$staffage" run street.yaml -o one -j 1
+check "a scene becomes a dataset" is $status 0
+for output in rgb/000000.png semantic/000001.png semantic_id/000002.png instance/000000.png depth/000001.exr \
+    depth/000002.png amodal/000000.json labels/000001.json run.json; do
+    check "there is $output" test -s "one/$output"
+done
+run "$staffage" run street.yaml -o two -j 2
+check "-j 2: the same as with -j 1" same_dataset one two
+
+before=$(stamps one)
+run "$staffage" run street.yaml -o one
+check "a second run: nothing to do" says '^nothing to do'
+check "a second run: no file is touched" is "$(stamps one)" "$before"
+
+"$staffage" run street.yaml -o killed -j 2 >log 2>&1 &
+pid=$!
+until [ "$(passes killed)" -ge 2 ] || ! kill -0 $pid 2>/dev/null; do sleep 0.05; done
+kill -KILL $pid
+wait $pid 2>/dev/null
+check "killed with -9: in the middle" test ! -e killed/rgb/000002.png
+run "$staffage" run street.yaml -o killed -j 2
+check "killed and run again: the same as undisturbed" same_dataset one killed
+
+echo 'sphere { 0, Nothing }' >>two/frames/000001/shadow.pov
+rm -f two/rgb/000002.png
+run "$staffage" run street.yaml -o two -j 2
+check "a failed render: exit status 1, POV-Ray's words and the scene's path" \
+    test $status = 1 -a "$(grep -c "^$work/two/frames/000001/shadow.pov: POV-Ray: .*identifier 'Nothing'" log)" = 1
+check "a failed render does not stop the other frames" test -s two/rgb/000002.png
+
+# A name that would be more than a name.
+sed 's/name: car-1/name: "x\\" #fopen F \\"hacked\\" write \/\/"/' minimal.yaml >hostile.yaml
+{ echo 'mtllib hostile.mtl'; sed '/^o box/a usemtl x" #fopen F "hacked" write' box.obj; } >hostile.obj
+echo 'newmtl x" #fopen F "hacked" write' >hostile.mtl
+sed -i 's/box\.obj/hostile.obj/' hostile.yaml
+run "$staffage" run hostile.yaml -o hostile
+check "names with quotes and scene language in them: a dataset as any other" is $status 0
+check "names with quotes and scene language in them: nothing is written" \
+    is "$(find . -name 'hacked*')" ''
+check "the dataset keeps the entity's name as it is" grep -q 'x\\" #fopen F \\"hacked\\" write //' hostile/labels/000000.json
+
+# Installed elsewhere than configured, all works.
+if make -C "$top_builddir" --no-print-directory -s install DESTDIR="$work/root" >log 2>&1; then
+    installed=$(find "$work/root" -name staffage -type f)
+    run "$installed" run minimal.yaml -o installed
+    check "installed: a scene becomes a dataset" is $status 0
+    run "$staffage" run minimal.yaml -o built
+    check "installed: the same as from the build tree" same_dataset installed built
+else
+    ok 1 "make install DESTDIR"
+fi
+tap_done
