@@ -1,2 +1,2 @@
 # docs
-dist_doc_DATA = %D%/scene.md
+dist_doc_DATA = %D%/scene.md %D%/labels.md

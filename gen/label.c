@@ -4,10 +4,14 @@
 #include "lib/file.h"
 #include "lib/rle.h"
 
+#include <dirent.h>
+#include <errno.h>
 #include <jansson.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static json_t *json_vec3(struct vec3 v)
 {
@@ -99,6 +103,18 @@ static bool write_labels(const char *folder, const struct frame_labels *labels, 
     return write_json(folder, "labels.json", root, err);
 }
 
+static json_t *json_depth_range(const struct entity_labels *l)
+{
+    size_t n = (size_t)(l->mask_px.x1 - l->mask_px.x0) * (size_t)(l->mask_px.y1 - l->mask_px.y0);
+    double least = INFINITY, most = -INFINITY;
+    for (size_t i = 0; i < n; i++) {
+        if (!l->mask[i]) continue;
+        least = fmin(least, (double)l->depth_m[i]);
+        most = fmax(most, (double)l->depth_m[i]);
+    }
+    return json_pack("[ff]", least, most);
+}
+
 /* The depth of an entity's whole mask, cut to the mask's rectangle. */
 static bool write_amodal_depth(const char *folder, const struct entity *e, const struct entity_labels *l,
                                struct error *err)
@@ -124,9 +140,9 @@ static bool write_amodal(const char *folder, const struct frame_labels *labels, 
         if (!ok) break;
         char *counts = rle_to_string(&rle), depth[32];
         snprintf(depth, sizeof depth, "%05d.exr", (int)c->entities[i].id);
-        json_array_append_new(list, json_pack("{s:i, s:{s:[ii], s:s}, s:s, s:o}", "id", (int)c->entities[i].id,
+        json_array_append_new(list, json_pack("{s:i, s:{s:[ii], s:s}, s:o, s:s, s:o}", "id", (int)c->entities[i].id,
                                               "segmentation", "size", height, width, "counts", counts ? counts : "",
-                                              "depth", depth, "depth_box_px", json_box(l->mask_px)));
+                                              "depth_range_m", json_depth_range(l), "depth", depth, "depth_box_px", json_box(l->mask_px)));
         ok = counts || error_set(err, ERR_MEMORY, "no memory for a mask");
         free(counts);
         rle_release(&rle);
@@ -138,6 +154,23 @@ static bool write_amodal(const char *folder, const struct frame_labels *labels, 
         return false;
     }
     return write_json(folder, "amodal.json", root, err);
+}
+
+/* Depths of entities that an earlier run saw in this frame. */
+static bool remove_stale(const char *amodal_folder, const struct frame_labels *labels, const struct label_context *c,
+                         struct error *err)
+{
+    DIR *dir = opendir(amodal_folder);
+    if (!dir) return error_at(err, ERR_IO, amodal_folder, 0, 0, "cannot be read: %s", strerror(errno));
+    for (struct dirent *file; (file = readdir(dir));) {
+        unsigned id;
+        bool stale = sscanf(file->d_name, "%5u.exr", &id) == 1;
+        for (size_t i = 0; stale && i < labels->entity_count; i++)
+            stale = c->entities[i].id != id || !labels->entities[i].in_frame;
+        if (stale) unlinkat(dirfd(dir), file->d_name, 0);
+    }
+    closedir(dir);
+    return true;
 }
 
 static bool write_image(const char *folder, const char *name, const struct image *image, struct error *err)
@@ -153,7 +186,8 @@ bool labels_write(const char *folder, const struct frame_labels *labels, const s
                   struct error *err)
 {
     char *amodal = string_format("%s/amodal", folder);
-    bool ok = amodal ? folder_make(amodal, err) : error_set(err, ERR_MEMORY, "no memory for a path");
+    bool ok = amodal ? folder_make(amodal, err) && remove_stale(amodal, labels, context, err)
+                     : error_set(err, ERR_MEMORY, "no memory for a path");
     free(amodal);
     return ok && write_image(folder, "instance.png", &labels->instance, err) &&
            write_image(folder, "depth.exr", &labels->depth, err) &&

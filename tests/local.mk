@@ -87,4 +87,9 @@ tests_gen_trace_povray_test_SOURCES = %D%/gen/trace_povray.c %D%/gen/solid.h %D%
 nodist_EXTRA_tests_gen_trace_povray_test_SOURCES = dummy.cxx
 tests_gen_trace_povray_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/label.test
+tests_gen_label_test_SOURCES = %D%/gen/label.c %D%/gen/solid.h %D%/tap.h
+nodist_EXTRA_tests_gen_label_test_SOURCES = dummy.cxx
+tests_gen_label_test_LDADD = $(GEN_LIBS)
+
 TESTS += $(check_PROGRAMS) $(dist_check_SCRIPTS)
