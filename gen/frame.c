@@ -478,7 +478,8 @@ static bool make_frame(struct frame_result *result, const struct generator *g, c
     };
     ok = labels_write(folder, &labels, &context, err);
     if (ok && !result->empty)
-        ok = view_cover(&view, &g->camera, window, err) && write_passes(g, folder, matters, &view, err);
+        ok = (view_cover(&view, &g->camera, window, err) || fail_at(g, s->camera_source, err)) &&
+             write_passes(g, folder, matters, &view, err);
     result->view_width_px = view.width_px;
     result->view_height_px = view.height_px;
     ok = ok && write_manifest(g, path, result->name, photograph, key, result, &view, err);
