@@ -3,6 +3,9 @@
 # and the exact message that the program prints for it.
 . "$top_srcdir/tests/tap.sh"
 
+STAFFAGE_DATADIR=$top_srcdir
+export STAFFAGE_DATADIR
+
 for folder in "$top_srcdir"/tests/invalid/*/; do
     name=$(basename "$folder")
     cd "$folder" || exit 1
