@@ -63,6 +63,42 @@ bool ends_early(const char *path)
     return jpeg && !found;
 }
 
+const unsigned char png_signature[] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
+
+bool is_png(const char *path)
+{
+    unsigned char head[sizeof png_signature] = { 0 };
+    FILE *f = fopen(path, "rb");
+    if (!f) return false;
+    bool png = fread(head, 1, sizeof head, f) == sizeof head && !memcmp(head, png_signature, sizeof head);
+    fclose(f);
+    return png;
+}
+
+/* A PNG without its colour profile, which nobody here uses: libpng prints a line about many of them. */
+std::vector<unsigned char> without_profile(const unsigned char *data, size_t size)
+{
+    std::vector<unsigned char> out(data, data + sizeof png_signature);
+    for (size_t at = sizeof png_signature; at + 12 <= size;) {
+        const unsigned char *chunk = data + at;
+        size_t length = (size_t)chunk[0] << 24 | (size_t)chunk[1] << 16 | (size_t)chunk[2] << 8 | chunk[3];
+        size_t whole = length > size - at - 12 ? size - at : length + 12;
+        if (memcmp(chunk + 4, "iCCP", 4) != 0) out.insert(out.end(), chunk, chunk + whole);
+        at += whole;
+    }
+    return out;
+}
+
+cv::Mat decode(const void *data, size_t size)
+{
+    const int flags = cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION;
+    const unsigned char *bytes = static_cast<const unsigned char *>(data);
+    if (size == 0 || size > INT_MAX) return cv::Mat();
+    if (size > sizeof png_signature && !memcmp(bytes, png_signature, sizeof png_signature))
+        return cv::imdecode(without_profile(bytes, size), flags);
+    return cv::imdecode(cv::Mat(1, (int)size, CV_8U, const_cast<void *>(data)), flags);
+}
+
 } // namespace
 
 bool image_read(struct image *image, const char *path, struct error *err)
@@ -70,6 +106,14 @@ bool image_read(struct image *image, const char *path, struct error *err)
     return guarded(err, ERR_INPUT, [&] {
         prepare();
         if (!file_exists(path)) return error_at(err, ERR_INPUT, path, 0, 0, "does not exist");
+        if (is_png(path)) {
+            char *data;
+            size_t size;
+            if (!file_read(&data, &size, path, err)) return false;
+            bool ok = image_decode(image, data, size, path, err);
+            free(data);
+            return ok;
+        }
         cv::Mat mat = cv::imread(path, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
         if (mat.empty()) return error_at(err, ERR_INPUT, path, 0, 0, "is not an image that can be read (PNG, JPEG, TIFF or EXR), or is truncated");
         if (ends_early(path)) return error_at(err, ERR_INPUT, path, 0, 0, "is truncated: the JPEG has no end marker");
@@ -81,11 +125,7 @@ bool image_decode(struct image *image, const void *data, size_t size, const char
 {
     return guarded(err, ERR_INPUT, [&] {
         prepare();
-        cv::Mat mat;
-        if (size > 0 && size <= INT_MAX) {
-            cv::Mat bytes(1, (int)size, CV_8U, const_cast<void *>(data));
-            mat = cv::imdecode(bytes, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
-        }
+        cv::Mat mat = decode(data, size);
         if (mat.empty()) return error_at(err, ERR_INPUT, path, 0, 0, "is not an image that can be read (PNG, JPEG, TIFF or EXR), or is truncated");
         return image_from_mat(image, mat, path, err);
     });
