@@ -104,6 +104,10 @@ static bool load_models(struct generator *g, struct error *err)
         if (g->models[m]) continue;
         struct model_options options = s->models[m].options;
         options.rules = g->rules;
+        if (!options.has_class) { /* a model that says nothing is what its first entity is */
+            options.has_class = true;
+            options.class_ = s->entities[i].class_;
+        }
         if (!model_load(&g->models[m], s->models[m].file, &options, err)) return false;
         struct model *model = g->models[m];
         for (size_t k = 0; k < model->missing_texture_count; k++)
