@@ -1,2 +1,2 @@
 # docs
-dist_doc_DATA = %D%/scene.md %D%/labels.md
+dist_doc_DATA = %D%/labels.md %D%/materials.md %D%/scene.md

@@ -197,12 +197,12 @@ static bool read_line(struct material_rules *rules, struct reader *r)
             goto out;
         }
         if (*r->at == ':') break;
-        if (*r->at != ',') {
+        if (!at_end(r) && *r->at != ',') {
             error_at(r->err, ERR_INPUT, r->path, r->number, column(r),
                      "\",\" or \":\" was expected; a keyword of several words goes in double quotes");
             goto out;
         }
-        r->at++;
+        if (!at_end(r)) r->at++;
         skip_blanks(r);
     }
     r->at++;
@@ -298,6 +298,8 @@ static const struct finish *find(const struct material_rules *rules, const char 
 void material_rules_apply(const struct material_rules *rules, struct material *material, enum entity_class class_)
 {
     const struct finish *finish = find(rules, material->name);
+    bool person = class_ < CLASS_COUNT && class_info(class_)->is_person;
+    if (person && finish && finish->kind == FINISH_PAINT) finish = NULL; /* a "Body" that is no car's */
     if (!material->names_only) {
         if (finish && finish->kind == FINISH_PAINT) material->kind = FINISH_PAINT;
         return;

@@ -57,7 +57,8 @@ void material_rules_destroy(struct material_rules *rules);
 
 /* Set a material's kind by its name. Where names_only, a keyword or else the file's `default`
  * line for the class (CLASS_COUNT: not known) sets kind and figures. A material that came with
- * figures keeps them: only a keyword for FINISH_PAINT applies, so that it takes the entity's colour. */
+ * figures keeps them: only a keyword for FINISH_PAINT applies, so that it takes the entity's colour.
+ * People are never painted. */
 void material_rules_apply(const struct material_rules *rules, struct material *material,
                           enum entity_class class_);
 

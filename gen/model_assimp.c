@@ -28,7 +28,7 @@ static bool check_ply(const char *path, const char *data, size_t size, struct er
 {
     const char *end = strstr(data, "end_header");
     if (strncmp(data, "ply", 3) != 0 || !end) return error_at(err, ERR_INPUT, path, 0, 0, "is no PLY file: it has no header");
-    size_t body = size - (size_t)(end - data);
+    size_t header = (size_t)(end - data) + strcspn(end, "\n") + 1, body = size > header ? size - header : 0;
     for (const char *at = data; (at = strstr(at, "\nelement ")) && at < end; at++) {
         char name[32];
         unsigned long long count;
@@ -151,6 +151,18 @@ static double determinant(const struct aiMatrix4x4 *m)
            (double)m->a3 * (double)(m->b1 * m->c2 - m->b2 * m->c1);
 }
 
+/* PLY has colours at its vertices and no materials: the mean is the material's. */
+static void take_mean_color(struct import_material *to, const struct aiMesh *from)
+{
+    double sum[3] = { 0, 0, 0 };
+    if (!from->mColors[0] || to->base != NO_IMAGE) return;
+    for (unsigned i = 0; i < from->mNumVertices; i++) {
+        const float c[3] = { from->mColors[0][i].r, from->mColors[0][i].g, from->mColors[0][i].b };
+        for (int k = 0; k < 3; k++) sum[k] += (double)linear_from_srgb(c[k] > 0 ? c[k] < 1 ? c[k] : 1 : 0);
+    }
+    for (int k = 0; k < 3; k++) to->material.base_color[k] = sum[k] / from->mNumVertices;
+}
+
 static bool add_mesh(struct import *import, const struct aiMesh *from, const struct aiMatrix4x4 *world, struct error *err)
 {
     if (!(from->mPrimitiveTypes & aiPrimitiveType_TRIANGLE)) return true;
@@ -184,6 +196,7 @@ static bool add_mesh(struct import *import, const struct aiMesh *from, const str
     }
     mesh.triangles = kept;
     mesh.material = from->mMaterialIndex;
+    take_mean_color(&import->materials[mesh.material], from);
     bool ok = import_add_mesh(import, &mesh, err);
     mesh_release(&mesh);
     return ok;
@@ -224,7 +237,9 @@ bool import_assimp(struct import *import, const char *path, struct error *err)
         path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType | aiProcess_ValidateDataStructure, NULL, settings);
     aiReleasePropertyStore(settings);
     if (!scene || !scene->mRootNode) {
-        error_at(err, ERR_INPUT, path, 0, 0, "is no model that can be read: %s", aiGetErrorString());
+        const char *text = aiGetErrorString();
+        if (strstr(text, "contains no faces")) error_at(err, ERR_INPUT, path, 0, 0, "has no triangles");
+        else error_at(err, ERR_INPUT, path, 0, 0, "is no model that can be read: %s", text);
         goto out;
     }
     for (unsigned i = 0; i < scene->mNumMaterials; i++)

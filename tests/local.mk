@@ -76,6 +76,20 @@ check_PROGRAMS += tests/gen/passes.test
 tests_gen_passes_test_SOURCES = %D%/gen/passes.c %D%/tap.h
 nodist_EXTRA_tests_gen_passes_test_SOURCES = dummy.cxx
 tests_gen_passes_test_LDADD = $(GEN_LIBS)
+check_PROGRAMS += tests/gen/model.test
+tests_gen_model_test_SOURCES = %D%/gen/model.c %D%/tap.h
+nodist_EXTRA_tests_gen_model_test_SOURCES = dummy.cxx
+tests_gen_model_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/material.test
+tests_gen_material_test_SOURCES = %D%/gen/material.c %D%/tap.h
+nodist_EXTRA_tests_gen_material_test_SOURCES = dummy.cxx
+tests_gen_material_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/texture.test
+tests_gen_texture_test_SOURCES = %D%/gen/texture.c %D%/tap.h
+nodist_EXTRA_tests_gen_texture_test_SOURCES = dummy.cxx
+tests_gen_texture_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/trace.test
 tests_gen_trace_test_SOURCES = %D%/gen/trace.c %D%/gen/solid.h %D%/tap.h
