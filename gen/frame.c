@@ -393,29 +393,28 @@ static bool already_there(struct frame_result *result, const char *manifest_path
     if (same) {
         result->kept = true;
         result->empty = old.empty;
-        result->view_width_px = old.view.width_px;
-        result->view_height_px = old.view.height_px;
+        result->view = old.view;
+        result->receiver_reduction = old.receiver_reduction;
     }
     manifest_release(&old);
     return same;
 }
 
-static bool write_manifest(const struct generator *g, const char *path, const char *name, const char *photograph,
-                           const char *key, const struct frame_result *result, const struct view *view,
-                           struct error *err)
+static bool write_manifest(const struct generator *g, const char *path, const struct frame_result *result,
+                           const char *photograph, const char *key, struct error *err)
 {
     static const char *const transfers[] = { "layers", "ratio", "threshold", "alpha" };
     const struct scene *s = g->scene;
     struct manifest m = {
         .width_px = g->camera.width_px, .height_px = g->camera.height_px,
         .camera = g->camera, .world_from_camera = s->world_from_camera,
-        .empty = result->empty, .view = *view,
+        .empty = result->empty, .view = result->view, .receiver_reduction = result->receiver_reduction,
         .exposure_given = s->exposure_given, .exposure = s->exposure, .white_balance = s->white_balance,
         .t1 = s->t1, .t2 = s->t2, .t3 = s->t3,
         .overwrite_below = s->overwrite == OVERWRITE_BELOW, .mask_dilated = s->mask == MASK_DILATED,
         .has_occluders = s->occluder_count > 0, .entity_count = s->entity_count,
     };
-    snprintf(m.frame, sizeof m.frame, "%s", name);
+    snprintf(m.frame, sizeof m.frame, "%s", result->name);
     snprintf(m.photograph, sizeof m.photograph, "%s", photograph);
     snprintf(m.key, sizeof m.key, "%s", key);
     snprintf(m.transfer, sizeof m.transfer, "%s", transfers[s->transfer]);
@@ -484,9 +483,9 @@ static bool make_frame(struct frame_result *result, const struct generator *g, c
     if (ok && !result->empty)
         ok = (view_cover(&view, &g->camera, window, err) || fail_at(g, s->camera_source, err)) &&
              write_passes(g, folder, matters, &view, err);
-    result->view_width_px = view.width_px;
-    result->view_height_px = view.height_px;
-    ok = ok && write_manifest(g, path, result->name, photograph, key, result, &view, err);
+    result->view = view;
+    result->receiver_reduction = pass_settings(s->quality, s->sky).receiver_reduction;
+    ok = ok && write_manifest(g, path, result, photograph, key, err);
     frame_labels_release(&labels);
 out:
     free(matters);

@@ -4,6 +4,7 @@
 
 #include "gen/scene.h"
 #include "lib/error.h"
+#include "lib/view.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -14,7 +15,8 @@
 struct frame_result {
     char name[FRAME_NAME_SIZE]; /* "000123" */
     bool empty;                 /* nothing changes: no passes */
-    int view_width_px, view_height_px;
+    struct view view;           /* of the object pass */
+    int receiver_reduction;
     bool kept;                  /* it was there already, from the same input */
 };
 

@@ -96,9 +96,11 @@ static bool generate(const struct options *o, struct error *err)
     struct pass_settings settings = pass_settings(scene->quality, scene->sky);
     for (size_t i = 0; i < n; i++) {
         if (!generator_frame(&results[i], generator, chosen[i], err)) goto out;
+        struct view whole = results[i].view, reduced = view_reduced(&whole, results[i].receiver_reduction);
         entries[i] = (struct makefile_frame){
             .name = results[i].name, .empty = results[i].empty,
-            .width_px = results[i].view_width_px, .height_px = results[i].view_height_px,
+            .width_px = { whole.width_px, reduced.width_px, reduced.width_px },
+            .height_px = { whole.height_px, reduced.height_px, reduced.height_px },
             .options = { settings.object_antialias, "-A", settings.shadow_antialias },
         };
         *(results[i].kept ? &kept : &made) += 1;

@@ -60,7 +60,7 @@ static void write_pass(FILE *f, const struct makefile_frame *frame, int pass)
             "frames/%1$s/%2$s.exr: frames/%1$s/%2$s.pov frames/%1$s/frame.json $(TEMPLATES)\n"
             "\t@$(STAFFAGE_POVRAY) frames/%1$s/%2$s %3$d %4$d%5$s%6$s\n"
             "\t@echo staffage: pass %1$s %2$s\n",
-            frame->name, pass_names[pass], frame->width_px, frame->height_px, *options ? " " : "", options);
+            frame->name, pass_names[pass], frame->width_px[pass], frame->height_px[pass], *options ? " " : "", options);
 }
 
 static void write_passes(FILE *f, const struct makefile_frame *frame)
@@ -95,13 +95,14 @@ static bool check_frames(const struct makefile_frame *frames, size_t frame_count
         if (!is_frame_name(frames[i].name))
             return error_set(err, ERR_BUG, "makefile: the frame name \"%s\" is not all digits", frames[i].name);
         if (frames[i].empty) continue;
-        if (frames[i].width_px < 1 || frames[i].height_px < 1)
-            return error_set(err, ERR_BUG, "makefile: frame %s: passes of %d x %d pixels", frames[i].name,
-                             frames[i].width_px, frames[i].height_px);
-        for (int p = 0; p < PASS_COUNT; p++)
+        for (int p = 0; p < PASS_COUNT; p++) {
+            if (frames[i].width_px[p] < 1 || frames[i].height_px[p] < 1)
+                return error_set(err, ERR_BUG, "makefile: frame %s: a pass of %d x %d pixels", frames[i].name,
+                                 frames[i].width_px[p], frames[i].height_px[p]);
             if (frames[i].options[p] && !is_options(frames[i].options[p]))
                 return error_set(err, ERR_BUG, "makefile: frame %s: option \"%s\" is not a plain word",
                                  frames[i].name, frames[i].options[p]);
+        }
     }
     return true;
 }

@@ -26,7 +26,7 @@ const char *pass_name(int pass);
 struct makefile_frame {
     const char *name;                /* "000123": digits only; borrowed */
     bool empty;                      /* no passes */
-    int width_px, height_px;         /* of all three passes */
+    int width_px[PASS_COUNT], height_px[PASS_COUNT];
     const char *options[PASS_COUNT]; /* more POV-Ray options, e.g. "+AM2 +A0.05 +R2 -J": words of
                                       * letters, digits, '+', '-' and '.'; NULL for none; borrowed */
 };

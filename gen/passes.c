@@ -11,18 +11,19 @@
 
 struct pass_settings pass_settings(enum quality quality, enum sky_kind sky)
 {
-    /* Under a clear sky the sun makes the shadow and the sky fills it: points of the sky do.
-     * Under clouds the sky makes all of it, and points would show as steps. */
+    /* Under a clear sky the sun makes the shadow, with edges, and the sky fills it: points of the
+     * sky do. Under clouds the sky makes all of it: points would show as steps, and areas of the sky
+     * are dear, but what they make is smooth. */
     bool clear = sky == SKY_CLEAR;
+    const char *edges = "+A0.03 +AM2 +R1 -J", *fine = "+A0.03 +AM2 +R2 -J", *none = "-A";
     switch (quality) {
     case QUALITY_DRAFT:
-        return (struct pass_settings){ 10, false, 30, 0.9, "-A", "-A" };
+        return (struct pass_settings){ 10, false, 30, 0.9, clear ? 1 : 2, none, none };
     case QUALITY_HIGH:
-        return (struct pass_settings){ 48, !clear, 200, 0.4, "+A0.1 +AM2 +R2 -J", "+A0.1 +AM2 +R2 -J" };
+        return (struct pass_settings){ 48, !clear, 200, 0.4, 1, fine, clear ? fine : none };
     case QUALITY_STANDARD:
     default:
-        return (struct pass_settings){ clear ? 16 : 32, false, 50, 0.8, "+A0.3 +AM2 +R1 -J",
-                                       clear ? "+A0.3 +AM2 +R1 -J" : "-A" };
+        return (struct pass_settings){ clear ? 16 : 24, !clear, 50, 0.8, clear ? 1 : 2, edges, clear ? edges : none };
     }
 }
 
@@ -293,7 +294,8 @@ static bool write_pass(const char *frame_folder, const char *name, const struct 
     sdl_declare_number(&sdl, "Radiosity_Count", settings.radiosity_count);
     sdl_declare_number(&sdl, "Radiosity_Error", settings.radiosity_error);
     sdl_include(&sdl, "settings.inc");
-    camera_write(&sdl, &p->view, p->world_from_camera);
+    struct view view = view_reduced(&p->view, receivers ? settings.receiver_reduction : 1);
+    camera_write(&sdl, &view, p->world_from_camera);
     write_light(&sdl, p, &settings, !receivers ? LIGHTS_RADIOSITY : entities ? LIGHTS_SHADED : LIGHTS_OPEN);
     sdl_declare_color(&sdl, "Ground_Albedo", scene->ground_albedo);
     sdl_declare_number(&sdl, "Ground_Reflection", scene->ground_reflection);

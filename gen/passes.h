@@ -21,6 +21,7 @@ struct pass_settings {
     bool soft_sky_lights;      /* each an area of the sky rather than a point of it */
     int radiosity_count;       /* in the object pass */
     double radiosity_error;
+    int receiver_reduction;    /* of the plane and shadow passes against the object pass */
     const char *object_antialias, *shadow_antialias; /* POV-Ray options */
 };
 struct pass_settings pass_settings(enum quality quality, enum sky_kind sky);

@@ -266,7 +266,8 @@ static bool walk_manifest(struct walk *walk, struct manifest *m)
         !walk_bool(walk, "empty", &m->empty))
         return false;
     /* An empty frame has no passes, so no view and no exposure. */
-    if (!m->empty && (!walk_view(walk, &m->view) || !walk_bool(walk, "exposure_given", &m->exposure_given) ||
+    if (!m->empty && (!walk_view(walk, &m->view) || !walk_int(walk, "receiver_reduction", &m->receiver_reduction, 1, 16) ||
+                       !walk_bool(walk, "exposure_given", &m->exposure_given) ||
                       !(m->exposure_given ? walk_real(walk, "exposure", &m->exposure, 1e-12, 1e12)
                                           : walk_rect(walk, "exposure_patch_px", &m->exposure_patch_px))))
         return false;

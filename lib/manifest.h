@@ -24,7 +24,9 @@ struct manifest {
     struct camera camera;
     struct pose world_from_camera;
     bool empty;                 /* nothing changes in this frame: no passes were written */
-    struct view view;           /* of all three passes; from here to exposure_patch_px not for an empty frame */
+    struct view view;           /* of the object pass, absent in an empty frame; the plane and shadow
+                                 * passes are rendered in view_reduced(&view, receiver_reduction) */
+    int receiver_reduction;     /* 1 to 16 */
     bool exposure_given;
     double exposure;            /* used when given */
     struct rect exposure_patch_px; /* else fitted here */

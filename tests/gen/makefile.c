@@ -30,14 +30,14 @@ int main(void)
     char *templates = string_format("%s/templates", getenv("top_srcdir"));
     if (!mkdtemp(out) || !templates) return 2;
     struct makefile_frame frames[] = {
-        { .name = "000007", .width_px = 320, .height_px = 200, .options = { "+AM2 +A0.05 +R2 -J", NULL, "" } },
+        { .name = "000007", .width_px = { 320, 320, 320 }, .height_px = { 200, 200, 200 }, .options = { "+AM2 +A0.05 +R2 -J", NULL, "" } },
         { .name = "000008", .empty = true },
     };
 
     OK(refuses((struct makefile_frame){ .name = "7 x", .empty = true }, templates), "refuses a name that is not digits");
     OK(refuses((struct makefile_frame){ .name = "", .empty = true }, templates), "refuses an empty name");
-    OK(refuses((struct makefile_frame){ .name = "7", .width_px = 0, .height_px = 9 }, templates), "refuses an empty picture");
-    OK(refuses((struct makefile_frame){ .name = "7", .width_px = 9, .height_px = 9, .options = { "+A;rm" } }, templates),
+    OK(refuses((struct makefile_frame){ .name = "7", .width_px = { 9, 0, 9 }, .height_px = { 9, 9, 9 } }, templates), "refuses an empty picture");
+    OK(refuses((struct makefile_frame){ .name = "7", .width_px = { 9, 9, 9 }, .height_px = { 9, 9, 9 }, .options = { "+A;rm" } }, templates),
        "refuses an option that a shell would split");
     OK(!written("Makefile"), "writes nothing when it refuses");
 

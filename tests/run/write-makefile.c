@@ -15,8 +15,9 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < n; i++) {
         char *name = argv[6 + i], *colon = strchr(name, ':');
         if (colon) *colon = 0;
+        int w = atoi(argv[3]), h = atoi(argv[4]);
         frames[i] = (struct makefile_frame){
-            .name = name, .empty = colon, .width_px = atoi(argv[3]), .height_px = atoi(argv[4]),
+            .name = name, .empty = colon, .width_px = { w, w, w }, .height_px = { h, h, h },
             .options = { argv[5], argv[5], argv[5] },
         };
     }
