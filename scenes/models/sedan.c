@@ -42,7 +42,7 @@ struct body { double x[64]; int last; }; /* stations, nose to tail */
 
 static struct body body_stations(void)
 {
-    static const double doors[] = { 0.90, 0.888, 0.6, 0.3, 0, -0.33, -0.342, -0.6 };
+    static const double doors[] = { 0.90, 0.884, 0.6, 0.3, 0, -0.33, -0.346, -0.6 };
     struct body body = { .last = 0 };
     for (int i = 0; i < NOSE; i++) body.x[body.last++] = half_length * pow(1 - nose_across[i] * nose_across[i], 1 / 9.0);
     for (int a = 0; a < 2; a++) {
@@ -241,8 +241,8 @@ void make_sedan(struct model *model)
 {
     static const struct ball details[] = {
         { { 0.62, 0.93, 0.985 }, { 0.06, 0.10, 0.07 }, 0.7, PAINT },          /* mirrors */
-        { { -0.22, 0.878, 0.80 }, { 0.10, 0.02, 0.018 }, 0.6, RIM },          /* handles */
-        { { -0.98, 0.876, 0.82 }, { 0.10, 0.02, 0.018 }, 0.6, RIM },
+        { { -0.22, 0.878, 0.80 }, { 0.10, 0.02, 0.018 }, 0.6, PAINT },        /* handles */
+        { { -0.98, 0.876, 0.82 }, { 0.10, 0.02, 0.018 }, 0.6, PAINT },
         { { -0.20, 0.36, 0.80 }, { 0.13, 0.25, 0.36 }, 0.5, INTERIOR },       /* seats */
         { { -0.24, 0.36, 1.20 }, { 0.06, 0.13, 0.09 }, 0.6, INTERIOR },
         { { 0.10, 0.36, 0.55 }, { 0.28, 0.25, 0.12 }, 0.5, INTERIOR },
