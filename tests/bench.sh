@@ -11,14 +11,14 @@ trap 'rm -rf "$work"' EXIT
 
 median() { sort -n | awk '{ v[NR] = $1 } END { print NR % 2 ? v[(NR + 1) / 2] : (v[NR / 2] + v[NR / 2 + 1]) / 2 }'; }
 
-# measure NAME COMMAND...: append user seconds and peak kilobytes.
+# measure STAGE COMMAND...: append user seconds and peak kilobytes.
 measure() {
-    name=$1
+    stage=$1
     shift
     /usr/bin/time -o "$work/time" -f '%U %M' "$@" >"$work/log" 2>&1 </dev/null || { cat "$work/log" >&2; exit 1; }
     read -r user_s peak_kb <"$work/time"
-    echo "$user_s" >>"$work/$name.user"
-    echo "$peak_kb" >>"$work/$name.peak"
+    echo "$user_s" >>"$work/$stage.user"
+    echo "$peak_kb" >>"$work/$stage.peak"
 }
 
 printf '%-28s %9s %9s %9s %9s %9s\n' scene generate render post total 'peak MB'

@@ -20,4 +20,4 @@ dist_check_SCRIPTS += tests/run.sh tests/pipeline.sh tests/man.sh
 EXTRA_DIST += tests/bench.sh tests/bench/craig-1000x750-4.yaml tests/bench/craig-2000x1500-15.yaml
 .PHONY: bench
 bench: all
-	top_srcdir='$(abs_top_srcdir)' top_builddir='$(abs_top_builddir)' $(srcdir)/tests/bench.sh
+	@top_srcdir='$(abs_top_srcdir)' top_builddir='$(abs_top_builddir)' $(srcdir)/tests/bench.sh
