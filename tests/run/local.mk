@@ -1,8 +1,11 @@
 # What people type, and how frames run.
 EXTRA_DIST += tests/tap.sh tests/run/stand-in-gen tests/run/stand-in-post
-EXTRA_PROGRAMS = tests/run/same-pixels tests/run/write-makefile
+EXTRA_PROGRAMS = tests/run/compare-masks tests/run/same-pixels tests/run/write-makefile
 CLEANFILES += $(EXTRA_PROGRAMS)
 check_DATA = $(EXTRA_PROGRAMS)
+tests_run_compare_masks_SOURCES = %D%/compare-masks.c
+nodist_EXTRA_tests_run_compare_masks_SOURCES = dummy.cxx
+tests_run_compare_masks_LDADD = $(LIB_LIBS)
 tests_run_same_pixels_SOURCES = %D%/same-pixels.c
 nodist_EXTRA_tests_run_same_pixels_SOURCES = dummy.cxx
 tests_run_same_pixels_LDADD = $(LIB_LIBS)
@@ -15,7 +18,7 @@ tests_gen_makefile_test_SOURCES = tests/gen/makefile.c tests/tap.h
 nodist_EXTRA_tests_gen_makefile_test_SOURCES = dummy.cxx
 tests_gen_makefile_test_LDADD = $(GEN_LIBS)
 
-dist_check_SCRIPTS += tests/run.sh tests/pipeline.sh tests/man.sh
+dist_check_SCRIPTS += tests/run.sh tests/pipeline.sh tests/man.sh tests/masks.sh
 
 EXTRA_DIST += tests/bench.sh tests/bench/craig-1000x750-4.yaml tests/bench/craig-2000x1500-15.yaml
 .PHONY: bench
