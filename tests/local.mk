@@ -32,6 +32,11 @@ tests_gen_scene_test_LDADD = $(GEN_LIBS)
 EXTRA_DIST += %D%/input %D%/invalid
 dist_check_SCRIPTS += %D%/invalid.sh
 
+check_PROGRAMS += tests/gen/scenes.test
+tests_gen_scenes_test_SOURCES = %D%/gen/scenes.c %D%/tap.h
+nodist_EXTRA_tests_gen_scenes_test_SOURCES = dummy.cxx
+tests_gen_scenes_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/ground.test
 tests_gen_ground_test_SOURCES = %D%/gen/ground.c %D%/tap.h
 nodist_EXTRA_tests_gen_ground_test_SOURCES = dummy.cxx
