@@ -54,6 +54,20 @@ printf '000001 0.9\n000002 0.6\n000003 0\n' >balls.yaml
 run "$staffage" run balls.yaml -o two
 check "a frame that changed is made again, the others are not" says '^1 frame in'
 
+if command -v script >/dev/null; then
+    rm -rf two
+    run script -qec "$staffage run balls.yaml -o two" /dev/null
+    tr '\r' '\n' <log >lines
+    check "on a terminal: one line that is written over" is "$(grep -c '^.\[Kframes' lines)" 10
+    check "on a terminal: frames, passes, rate and time left" \
+        grep -q '^.\[Kframes [0-3]/3  passes [0-6]/6  [0-9.]* s/frame  [0-9:]* left$' lines
+else
+    skip "on a terminal: one line that is written over" "no script(1)"
+fi
+run "$staffage" run balls.yaml -o three
+check "elsewhere: plain lines" says '^to do: 3 frames, 6 passes$'
+check "elsewhere: nothing is written over" not grep -q "$(printf '\r')" log
+
 mkdir 'o dd $(x) #1;"'
 run "$staffage" run balls.yaml -o 'o dd $(x) #1;"/b'
 check "an output folder may have any name" is $status 0
