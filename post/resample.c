@@ -48,11 +48,11 @@ static int add_taps(struct tap *taps, int count, struct vec2 v, float weight, in
     return count;
 }
 
-/* As many samples across as the pixel's footprint has view pixels, rounded: each sample spans
- * about one. Where a lens squeezes the view, several fall into one photograph pixel. */
+/* As many samples across as the pixel's footprint has view pixels: where a lens squeezes the view,
+ * several fall into one photograph pixel. Samples further apart than 1.1 weigh view pixels unevenly. */
 static int samples_across(double dx, double dy)
 {
-    double n = ceil(hypot(dx, dy) - 0.5);
+    double n = ceil(hypot(dx, dy) - 0.1);
     return n < 1 ? 1 : n > SAMPLES_MAX ? SAMPLES_MAX : (int)n;
 }
 
