@@ -48,3 +48,8 @@ check_PROGRAMS += tests/post/resample.test
 tests_post_resample_test_SOURCES = %D%/resample.c tests/tap.h
 nodist_EXTRA_tests_post_resample_test_SOURCES = dummy.cxx
 tests_post_resample_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/marker.test
+tests_post_marker_test_SOURCES = %D%/marker.c tests/tap.h
+nodist_EXTRA_tests_post_marker_test_SOURCES = dummy.cxx
+tests_post_marker_test_LDADD = post/libpost.a $(GEN_LIBS)

@@ -121,6 +121,62 @@ static void check_equality(const struct camera *camera)
     for (int k = 0; k < 2; k++) image_release(&in[k]);
 }
 
+/* Where a view's pixel lies in the photograph and how large it is there: 0 within 3 px of the window's edge. */
+static double area_in_window(const struct view *view, const struct camera *camera, double x, double y)
+{
+    struct vec2 l, r, a, b;
+    if (!photograph_from_view(view, camera, &l, (struct vec2){ x - 0.5, y }) ||
+        !photograph_from_view(view, camera, &r, (struct vec2){ x + 0.5, y }) ||
+        !photograph_from_view(view, camera, &a, (struct vec2){ x, y - 0.5 }) ||
+        !photograph_from_view(view, camera, &b, (struct vec2){ x, y + 0.5 }))
+        return 0;
+    struct rect w = view->window_px;
+    struct vec2 q = { (l.x + r.x) / 2, (l.y + r.y) / 2 };
+    if (q.x < w.x0 + 3 || q.y < w.y0 + 3 || q.x > w.x1 - 3 || q.y > w.y1 - 3) return 0;
+    return fabs((r.x - l.x) * (b.y - a.y) - (r.y - l.y) * (b.x - a.x));
+}
+
+/* Lights up to 1000, as strong as the sun in chrome beside shade. */
+static void check_light(const char *name, const struct camera *camera)
+{
+    struct error err = ERROR_NONE;
+    struct view view;
+    struct image in[3], out[3];
+    if (!OK(view_cover(&view, camera, (struct rect){ 100, 90, 200, 150 }, &err), "%s: a view covers the window", name)) return;
+    for (int k = 0; k < 3; k++)
+        if (!image_init(&in[k], view.width_px, view.height_px, 4, PIXEL_F32, &err)) return;
+    double energy = 0;
+    uint32_t state = 1;
+    for (int y = 0; y < view.height_px; y++)
+        for (int x = 0; x < view.width_px; x++) {
+            double area = area_in_window(&view, camera, x + 0.5, y + 0.5);
+            if (area == 0) continue;
+            float light[2];
+            for (int k = 0; k < 2; k++) {
+                state = state * 1664525 + 1013904223;
+                light[k] = powf(10, (float)(state >> 8) / 0x1p24f * 4 - 1);
+                image_f32(&in[k], x, y)[1] = light[k];
+            }
+            image_f32(&in[2], x, y)[1] = 2 * light[0] + light[1] / 3;
+            energy += area * (double)light[0];
+        }
+    if (!OK(resample_view(out, in, 3, &view, camera, &err), "%s: a light, another, and a mixture are resampled", name)) return;
+    double sum = 0, off = 0;
+    for (int y = 0; y < out[0].height_px; y++)
+        for (int x = 0; x < out[0].width_px; x++) {
+            double a = (double)image_f32(&out[0], x, y)[1], b = (double)image_f32(&out[1], x, y)[1];
+            double both = 2 * a + b / 3;
+            sum += a;
+            if (both > 0) off = fmax(off, fabs((double)image_f32(&out[2], x, y)[1] - both) / both);
+        }
+    NEAR(off, 0, 1e-5, "%s: the mixture of lights is the light of the mixture", name);
+    NEAR(sum / energy, 1, 0.01, "%s: the photograph receives as much light as the view has", name);
+    for (int k = 0; k < 3; k++) {
+        image_release(&in[k]);
+        image_release(&out[k]);
+    }
+}
+
 static void check_aligned(void)
 {
     float p[2 * 3 * 4];
@@ -157,8 +213,13 @@ int main(void)
                                    .params = { 260, 262, 203, 158, -0.16, 0.03, 0.002, -0.003 } };
     const struct camera fisheye = { .model = CAMERA_OPENCV_FISHEYE, .width_px = 400, .height_px = 320,
                                     .params = { 180, 180, 200, 160, 0.02, -0.004, 0, 0 } };
+    const struct camera rim = { .model = CAMERA_OPENCV_FISHEYE, .width_px = 400, .height_px = 320,
+                                    .params = { 170, 172, 330, 260, 0.02, -0.004, 0, 0 } };
     check_lens("barrel", &barrel);
     check_lens("fisheye", &fisheye);
+    check_light("barrel", &barrel);
+    check_light("fisheye", &fisheye);
+    check_light("fisheye, 95 deg off its axis", &rim);
     check_equality(&barrel);
     check_aligned();
     check_fold();
