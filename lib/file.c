@@ -164,7 +164,14 @@ bool folder_make(const char *path, struct error *err)
 uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
 {
     const unsigned char *bytes = data;
-    for (size_t i = 0; i < size; i++) hash = (hash ^ bytes[i]) * 0x100000001b3u;
+    const uint64_t prime = 0x100000001b3u;
+    for (; size >= sizeof(uint64_t); size -= sizeof(uint64_t), bytes += sizeof(uint64_t)) {
+        uint64_t word;
+        memcpy(&word, bytes, sizeof word);
+        hash = (hash ^ word) * prime;
+        hash ^= hash >> 29; /* a product moves bits up only */
+    }
+    for (size_t i = 0; i < size; i++) hash = (hash ^ bytes[i]) * prime;
     return hash;
 }
 

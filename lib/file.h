@@ -34,7 +34,8 @@ bool folder_make(const char *path, struct error *err);
 /* Flush and rename a finished temporary file into place; removes it on failure. */
 bool file_commit(const char *temporary, const char *path, struct error *err);
 
-/* FNV-1a, 64 bit, chained: start with FILE_HASH_SEED. */
+/* 64 bits that tell contents apart, not a defence against forgery; chained: start with
+ * FILE_HASH_SEED. In the manner of FNV-1a, eight bytes a step. */
 #define FILE_HASH_SEED 0xcbf29ce484222325u
 uint64_t hash_bytes(uint64_t hash, const void *data, size_t size);
 /* Adds the bytes of a file to *hash. */

@@ -1,6 +1,6 @@
 #!/bin/sh
 # make bench: user seconds and peak memory of each stage, medians of $BENCH_RUNS runs (3), one process
-# at a time. Scenes are tests/bench/*.yaml; @SHARED@ in them is the folder of real material.
+# at a time. Scenes are tests/bench/*.yaml (of tests/bench/labels/ the first stage only); @SHARED@ in them is the folder of real material.
 set -u
 runs=${BENCH_RUNS:-3}
 shared=${STAFFAGE_SHARED:-$top_srcdir/../shared}
@@ -41,4 +41,18 @@ for scene in "$top_srcdir"/tests/bench/*.yaml; do
         printf "%-28s %7.2f s %7.2f s %7.2f s %7.2f s %9.0f\n", $1, $2, $3, $4, total, $5 / 1024
         printf "%-28s %7.0f %% %7.0f %% %7.0f %%\n", "", 100 * $2 / total, 100 * $3 / total, 100 * $4 / total
     }'
+done
+
+# The first stage alone, where the labels are traced: scenes, models and photograph included.
+for scene in "$top_srcdir"/tests/bench/labels/*.yaml; do
+    name=$(basename "$scene" .yaml)
+    sed "s|@SHARED@|$shared|g" "$scene" >"$work/$name.yaml"
+    rm -f "$work"/*.user "$work"/*.peak
+    i=0
+    while [ $i -lt "$runs" ]; do
+        rm -rf "$work/out"
+        measure generate "$top_builddir/staffage" generate "$work/$name.yaml" -o "$work/out"
+        i=$((i + 1))
+    done
+    median <"$work/generate.user" | awk -v name="$name" '{ printf "%-28s %7.2f s\n", name " labels", $1 }'
 done
