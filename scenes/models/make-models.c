@@ -15,13 +15,13 @@ int main(int argc, char **argv)
         [TAIL_LIGHT] = { 0.45, 0.02, 0.02 }, [PLATE_FRONT] = { 0.8, 0.8, 0.78 }, [PLATE_REAR] = { 0.8, 0.6, 0.08 },
         [RUBBER] = { 0.03, 0.03, 0.03 }, [RIM] = { 0.6, 0.61, 0.62 } } };
     static const struct { const char *name; enum build build; enum stance stance; struct palette palette; } people[] = {
-        { "man-walking", MAN, WALKING, { { [SKIN] = { 0.62, 0.44, 0.35 }, [HAIR] = { 0.05, 0.04, 0.03 },
+        { "man-walking", MAN, WALKING, { { [SKIN] = { 0.80, 0.57, 0.46 }, [HAIR] = { 0.05, 0.04, 0.03 },
             [JACKET] = { 0.12, 0.14, 0.18 }, [TROUSERS] = { 0.13, 0.12, 0.11 }, [SHOES] = { 0.05, 0.04, 0.04 } } } },
-        { "man-standing", MAN, STANDING, { { [SKIN] = { 0.55, 0.38, 0.29 }, [HAIR] = { 0.10, 0.07, 0.05 },
+        { "man-standing", MAN, STANDING, { { [SKIN] = { 0.74, 0.52, 0.41 }, [HAIR] = { 0.10, 0.07, 0.05 },
             [JACKET] = { 0.20, 0.17, 0.12 }, [TROUSERS] = { 0.06, 0.06, 0.07 }, [SHOES] = { 0.06, 0.04, 0.03 } } } },
-        { "woman-walking", WOMAN, WALKING, { { [SKIN] = { 0.68, 0.50, 0.41 }, [HAIR] = { 0.13, 0.07, 0.04 },
+        { "woman-walking", WOMAN, WALKING, { { [SKIN] = { 0.86, 0.64, 0.53 }, [HAIR] = { 0.13, 0.07, 0.04 },
             [JACKET] = { 0.36, 0.07, 0.08 }, [TROUSERS] = { 0.05, 0.05, 0.06 }, [SHOES] = { 0.04, 0.03, 0.03 } } } },
-        { "woman-standing", WOMAN, STANDING, { { [SKIN] = { 0.64, 0.46, 0.37 }, [HAIR] = { 0.35, 0.24, 0.12 },
+        { "woman-standing", WOMAN, STANDING, { { [SKIN] = { 0.82, 0.60, 0.49 }, [HAIR] = { 0.35, 0.24, 0.12 },
             [JACKET] = { 0.45, 0.42, 0.38 }, [TROUSERS] = { 0.09, 0.12, 0.20 }, [SHOES] = { 0.15, 0.10, 0.07 } } } }
     };
 
