@@ -23,7 +23,12 @@ static const char head[] =
     ".SUFFIXES:\n"
     ".PHONY: all render post\n"
     "all: post\n"
-    "TEMPLATES := $(wildcard templates/*.inc)\n";
+    "TEMPLATES := $(wildcard templates/*.inc)\n"
+    "\n"
+    "# One make would begin every pass before it comes back to a frame that is ready for its picture;\n"
+    "# one make a frame finishes it first. They share the jobs, and end with this one.\n"
+    "frame-%:\n"
+    "\t@setpriv --pdeathsig TERM $(MAKE) post-$*\n";
 
 /* POV-Ray 3.7 reads the first section without effect (its parser leaves the value unset), so
  * staffage-povray confines the process as well; a POV-Ray that is mended honours it. */
@@ -79,7 +84,7 @@ static void write_frame(FILE *f, const struct makefile_frame *frame)
 {
     fprintf(f, "\nrender:");
     write_passes(f, frame);
-    fprintf(f, "\npost: ");
+    fprintf(f, "\npost: post-%1$s\n.PHONY: post-%1$s\npost-%1$s: ", frame->name);
     write_outputs(f, frame);
     fprintf(f, "\n");
     for (int p = 0; p < PASS_COUNT && !frame->empty; p++) write_pass(f, frame, p);

@@ -88,6 +88,12 @@ printf '000001 0.9\n000002 0.8\n000003 0.7\n' >bad.yaml
 run "$staffage" run bad.yaml
 check "a scene that is mended: only its frame is made" says '^1 frame in'
 
+rm -r out/bad/frames/000002 out/bad/rgb/000001.png
+run "$staffage" post out/bad
+check "a scene that is gone: is named and counted" says "No rule to make target 'frames/000002/.*pov'"
+check "a scene that is gone: the other frames are done" test $status = 1 -a -f out/bad/rgb/000001.png
+check "a scene that is gone: is counted" says '1 of 2 frames failed'
+
 printf '000001 0.9\n000002 0.5\n' >refused.yaml
 run "$staffage" run refused.yaml
 check "a frame that post refuses: post's words, exit status 1" says 'radius 0.5 is refused'
@@ -138,6 +144,8 @@ made=$(files killed exr)
 check "killed: it was in the middle" test "$made" -ge 2 -a "$made" -lt 12
 run "$staffage" run many.yaml -o killed -j 2
 check "killed: nothing goes on in its back" test "$(files killed exr)" = 12 -a $status = 0
+check "frames are finished one after the other, not all in the end" \
+    test whole/rgb/000001.png -ot whole/frames/000004/shadow.exr
 check "killed and run again: the same pixels" same_frames whole killed
 check "killed and run again: no unfinished file is left" is "$(ls killed/frames/*/*part* 2>/dev/null)" ''
 
