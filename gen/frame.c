@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
+#include <unistd.h>
 
 #define DEG (180 / M_PI)
 
@@ -30,6 +30,7 @@ struct generator {
     struct camera camera;           /* at the size of the result */
     struct light light;
     char sky_map[SKY_MAP_SIZE];     /* the light's sky, relative to out_folder */
+    uint64_t video_hash;            /* names the video as it is now: another one's pictures are not taken for its own */
     struct entity *entities;        /* (scene->entity_count) */
     size_t *model_index;
     struct receiver *receivers;     /* (scene->entity_count) */
@@ -60,7 +61,7 @@ static bool size_result(struct generator *g, struct error *err)
         if (s->is_video ? !video_info(&width, &height, &frames, s->photographs[i], err)
                         : !image_read_size(&width, &height, s->photographs[i], err))
             return false;
-        if (s->is_video && s->video_frames[s->video_frame_count - 1] >= frames)
+        if (s->is_video && frames > 0 && s->video_frames[s->video_frame_count - 1] >= frames) /* some do not say */
             return error_at(err, ERR_INPUT, s->photographs[i], 0, 0,
                             "has %d frames, from 0 to %d: frame %d is not there", frames, frames - 1,
                             s->video_frames[s->video_frame_count - 1]);
@@ -80,6 +81,27 @@ static bool size_result(struct generator *g, struct error *err)
     return true;
 }
 
+/* Size and time of a file, and a name for it, into a hash. */
+static bool hash_file_state(uint64_t *hash, const char *path, const char *name, struct error *err)
+{
+    struct stat st;
+    if (stat(path, &st) != 0) return error_at(err, ERR_INPUT, path, 0, 0, "does not exist");
+    int64_t seen[3] = { st.st_size, st.st_mtim.tv_sec, st.st_mtim.tv_nsec };
+    *hash = hash_bytes(hash_bytes(*hash, name, strlen(name)), seen, sizeof seen);
+    return true;
+}
+
+static bool hash_video(struct generator *g, struct error *err)
+{
+    if (!g->scene->is_video) return true;
+    char *absolute = realpath(g->scene->photographs[0], NULL);
+    g->video_hash = FILE_HASH_SEED;
+    bool ok = absolute ? hash_file_state(&g->video_hash, absolute, absolute, err)
+                       : error_at(err, ERR_INPUT, g->scene->photographs[0], 0, 0, "does not exist");
+    free(absolute);
+    return ok;
+}
+
 static struct vec2 scaled_px(const struct generator *g, struct vec2 q)
 {
     return (struct vec2){ q.x * g->camera.width_px / g->scene->camera.width_px,
@@ -94,6 +116,30 @@ static bool warn(struct generator *g, const char *model, const char *texture, st
     g->warnings[g->warning_count] = string_format("%s: texture \"%s\" not found beside it or in the folders around it; "
                                                   "its material has its plain colour", model, texture);
     return g->warnings[g->warning_count++] || error_set(err, ERR_MEMORY, "no memory for a message");
+}
+
+/* Of what was loaded: a model can lie in several files (.bin, .mtl, textures). */
+static uint64_t hash_model(uint64_t hash, const struct model *model)
+{
+    for (size_t i = 0; i < model->mesh_count; i++) {
+        const struct mesh *m = &model->meshes[i];
+        const size_t counts[] = { m->vertices, m->triangles, m->material, m->uv != NULL };
+        hash = hash_bytes(hash, counts, sizeof counts);
+        hash = hash_bytes(hash, m->position_m, m->vertices * sizeof *m->position_m);
+        hash = hash_bytes(hash, m->normal, m->vertices * sizeof *m->normal);
+        if (m->uv) hash = hash_bytes(hash, m->uv, m->vertices * sizeof *m->uv);
+        hash = hash_bytes(hash, m->triangle, m->triangles * sizeof *m->triangle);
+    }
+    for (size_t i = 0; i < model->material_count; i++) {
+        const struct material *m = &model->materials[i];
+        const double figures[] = { m->kind, m->base_color[0], m->base_color[1], m->base_color[2], m->alpha, m->alpha_mode,
+                                   m->alpha_cutoff, m->metallic, m->roughness, m->emissive[0], m->emissive[1],
+                                   m->emissive[2], m->clearcoat, m->clearcoat_roughness, m->transmission, m->ior,
+                                   m->base_image.width_px, m->base_image.height_px, m->base_image.channels };
+        hash = hash_bytes(hash, figures, sizeof figures);
+        if (m->base_image.data) hash = hash_bytes(hash, m->base_image.data, image_size(&m->base_image));
+    }
+    return hash;
 }
 
 static bool load_models(struct generator *g, struct error *err)
@@ -112,11 +158,7 @@ static bool load_models(struct generator *g, struct error *err)
         struct model *model = g->models[m];
         for (size_t k = 0; k < model->missing_texture_count; k++)
             if (!warn(g, s->models[m].file, model->missing_textures[k], err)) return false;
-        if (!file_hash(&g->input_hash, s->models[m].file, err)) return false;
-        for (size_t k = 0; k < model->material_count; k++) {
-            const struct image *t = &model->materials[k].base_image;
-            if (t->data) g->input_hash = hash_bytes(g->input_hash, t->data, image_size(t));
-        }
+        g->input_hash = hash_model(g->input_hash, model);
     }
     return true;
 }
@@ -222,7 +264,7 @@ bool generator_create(struct generator **generator, const struct scene *scene, c
         goto out;
     }
     if (!material_rules_read(&g->rules, rules, err) || !file_hash(&g->input_hash, rules, err) ||
-        !size_result(g, err) || !light_create(&g->light, scene, err) ||
+        !size_result(g, err) || !hash_video(g, err) || !light_create(&g->light, scene, err) ||
         !sky_map_write(g->sky_map, out_folder, &g->light, err) || !load_models(g, err) ||
         !place_entities(g, err) || !place_occluders(g, err))
         goto out;
@@ -284,6 +326,32 @@ static char *frame_folder(const struct generator *g, size_t frame)
     return string_format("%s/frames/%s", g->out_folder, name);
 }
 
+/* The path of a frame's photograph as the manifest names it; the caller frees. */
+static char *photograph_path(const struct generator *g, size_t frame, struct error *err)
+{
+    char name[FRAME_NAME_SIZE], *path;
+    generator_frame_name(name, g, frame);
+    if (g->scene->is_video) {
+        path = string_format("frames/video_%016llx/%s.png", (unsigned long long)g->video_hash, name);
+        if (!path) error_set(err, ERR_MEMORY, "no memory for a path");
+    } else {
+        path = realpath(g->scene->photographs[frame], NULL);
+        if (!path) error_at(err, ERR_INPUT, g->scene->photographs[frame], 0, 0, "does not exist");
+    }
+    if (path && strlen(path) >= sizeof ((struct manifest *)0)->photograph) {
+        error_at(err, ERR_INPUT, path, 0, 0, "the path is too long: %zu bytes are possible",
+                 sizeof ((struct manifest *)0)->photograph - 1);
+        free(path);
+        path = NULL;
+    }
+    return path;
+}
+
+static char *opened_path(const struct generator *g, const char *path)
+{
+    return path[0] == '/' ? strdup(path) : string_format("%s/%s", g->out_folder, path);
+}
+
 bool generator_prepare(struct generator *g, const size_t *frames, size_t n, struct error *err)
 {
     if (!g->scene->is_video) return true;
@@ -292,16 +360,18 @@ bool generator_prepare(struct generator *g, const size_t *frames, size_t n, stru
     size_t missing = 0;
     bool ok = numbers && paths;
     for (size_t i = 0; ok && i < n; i++) {
-        char *folder = frame_folder(g, frames[i]);
-        char *path = folder ? string_format("%s/photograph.png", folder) : NULL;
-        ok = path && folder_make(folder, err);
+        char *named = photograph_path(g, frames[i], err), *path = named ? opened_path(g, named) : NULL;
+        char *folder = path ? path_folder(path) : NULL;
+        ok = folder && folder_make(folder, err);
         if (ok && !file_exists(path)) {
             numbers[missing] = g->scene->video_frames[frames[i]];
             paths[missing++] = path;
         } else
             free(path);
         free(folder);
+        free(named);
     }
+    if (!ok) error_set(err, ERR_MEMORY, "no memory for the photographs of a video");
     if (ok && missing) ok = video_extract(g->scene->photographs[0], numbers, (const char *const *)paths, missing, err);
     for (size_t i = 0; i < missing; i++) free(paths[i]);
     free(paths);
@@ -375,13 +445,12 @@ static struct rect patch_px(const struct generator *g)
 /* Everything that a frame's files depend on, as 16 hex digits. */
 static bool frame_key(char key[17], const struct generator *g, const char *photograph, struct error *err)
 {
-    struct stat st;
-    if (stat(photograph, &st) != 0) return error_at(err, ERR_INPUT, photograph, 0, 0, "does not exist");
-    uint64_t hash = hash_bytes(g->input_hash, photograph, strlen(photograph));
-    int64_t seen[3] = { st.st_size, st.st_mtim.tv_sec, st.st_mtim.tv_nsec };
-    hash = hash_bytes(hash, seen, sizeof seen);
-    snprintf(key, 17, "%016llx", (unsigned long long)hash);
-    return true;
+    uint64_t hash = g->input_hash;
+    char *path = opened_path(g, photograph);
+    bool ok = path ? hash_file_state(&hash, path, photograph, err) : error_set(err, ERR_MEMORY, "no memory for a path");
+    free(path);
+    if (ok) snprintf(key, 17, "%016llx", (unsigned long long)hash);
+    return ok;
 }
 
 static bool already_there(struct frame_result *result, const char *manifest_path, const char *key)
@@ -497,25 +566,23 @@ bool generator_frame(struct frame_result *result, struct generator *g, size_t fr
 {
     struct frame_result made = { 0 };
     char *folder = frame_folder(g, frame), *manifest = folder ? string_format("%s/frame.json", folder) : NULL;
-    char *extracted = folder ? string_format("%s/photograph.png", folder) : NULL, key[17];
+    char *photograph = photograph_path(g, frame, err), key[17];
     bool ok = false;
-    if (!folder || !manifest || !extracted) {
+    if (!folder || !manifest || !photograph) {
         error_set(err, ERR_MEMORY, "no memory for a path");
         goto out;
     }
-    const char *photograph = g->scene->is_video ? extracted : g->scene->photographs[frame];
     generator_frame_name(made.name, g, frame);
     if (!folder_make(folder, err) || !frame_key(key, g, photograph, err)) goto out;
-    if (!already_there(&made, manifest, key)) {
-        char *absolute = realpath(photograph, NULL);
-        ok = absolute ? make_frame(&made, g, folder, absolute, key, err)
-                      : error_at(err, ERR_INPUT, photograph, 0, 0, "does not exist");
-        free(absolute);
-    } else
-        ok = true;
+    ok = already_there(&made, manifest, key);
+    if (!ok) {
+        /* Stopped halfway, the files are of two inputs: no manifest may then speak for them. */
+        unlink(manifest);
+        ok = make_frame(&made, g, folder, photograph, key, err);
+    }
     if (ok) *result = made;
 out:
-    free(extracted);
+    free(photograph);
     free(manifest);
     free(folder);
     return ok;

@@ -164,9 +164,14 @@ static bool remove_stale(const char *amodal_folder, const struct frame_labels *l
     if (!dir) return error_at(err, ERR_IO, amodal_folder, 0, 0, "cannot be read: %s", strerror(errno));
     for (struct dirent *file; (file = readdir(dir));) {
         unsigned id;
-        bool stale = sscanf(file->d_name, "%5u.exr", &id) == 1;
-        for (size_t i = 0; stale && i < labels->entity_count; i++)
-            stale = c->entities[i].id != id || !labels->entities[i].in_frame;
+        char name[32];
+        if (file->d_name[0] == '.') continue;
+        bool stale = true; /* and so is what a write that was killed left */
+        if (sscanf(file->d_name, "%5u.exr", &id) == 1) {
+            snprintf(name, sizeof name, "%05u.exr", id);
+            for (size_t i = 0; stale && !strcmp(name, file->d_name) && i < labels->entity_count; i++)
+                stale = c->entities[i].id != id || !labels->entities[i].in_frame;
+        }
         if (stale) unlinkat(dirfd(dir), file->d_name, 0);
     }
     closedir(dir);

@@ -96,14 +96,16 @@ static bool generate(const struct options *o, struct error *err)
     struct pass_settings settings = pass_settings(scene->quality, scene->sky);
     for (size_t i = 0; i < n; i++) {
         if (!generator_frame(&results[i], generator, chosen[i], err)) goto out;
+        *(results[i].kept ? &kept : &made) += 1;
+        entries[i] = (struct makefile_frame){ .name = results[i].name, .empty = results[i].empty };
+        if (results[i].empty) continue;
         struct view whole = results[i].view, reduced = view_reduced(&whole, results[i].receiver_reduction);
         entries[i] = (struct makefile_frame){
-            .name = results[i].name, .empty = results[i].empty,
+            .name = results[i].name,
             .width_px = { whole.width_px, reduced.width_px, reduced.width_px },
             .height_px = { whole.height_px, reduced.height_px, reduced.height_px },
             .options = { settings.object_antialias, "-A", settings.shadow_antialias },
         };
-        *(results[i].kept ? &kept : &made) += 1;
     }
     ok = generator_write_run(generator, results, n, err) &&
          makefile_write(o->out, templates, entries, n, err);

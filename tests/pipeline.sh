@@ -64,6 +64,27 @@ check "names with quotes and scene language in them: nothing is written" \
     is "$(find . -name 'hacked*')" ''
 check "the dataset keeps the entity's name as it is" grep -q 'x\\" #fopen F \\"hacked\\" write //' hostile/labels/000000.json
 
+# Whatever a frame was made from is noticed when it changes, in whichever file it lies.
+echo 'Kd 0.9 0.1 0.1' >>hostile.mtl
+run "$staffage" generate hostile.yaml -o hostile
+check "a material file beside the model is edited: its frames are generated again" says 'generated 1 frame, 0 unchanged'
+run "$staffage" generate "$work/hostile.yaml" -o "$work/hostile"
+check "the same scene by another path: nothing changed" says 'generated 0 frames, 1 unchanged'
+cp street.png film.png
+sed 's/files: .*/video: film.png, frames: [0]}/' minimal.yaml >film.yaml
+run "$staffage" generate film.yaml -o film
+check "a film: its frames are taken out" is "$(find film/frames -name 000000.png | wc -l)" 1
+touch film.png
+run "$staffage" generate film.yaml -o film
+check "a film that changed: its frames are taken out again" is "$(find film/frames -name 000000.png | wc -l)" 2
+
+# A frame that nothing changes in.
+{ sed '/^entities:/,$d' minimal.yaml; echo 'entities: []'; } >nobody.yaml
+run "$staffage" run nobody.yaml -o nobody
+check "a scene without entities: a picture all the same" test $status = 0 -a -s nobody/rgb/000000.png
+run "$staffage" run nobody.yaml -o nobody
+check "a scene without entities, a second run: nothing to do" says '^nothing to do'
+
 # Installed elsewhere than configured, all works.
 if make -C "$top_builddir" --no-print-directory -s install DESTDIR="$work/root" >log 2>&1; then
     installed=$(find "$work/root" -name staffage -type f)
