@@ -196,6 +196,15 @@ bool sky_map_write(char path[SKY_MAP_SIZE], const char *out_folder, const struct
 /* How the sky lights a pass: by radiosity; by lights, with or without something in their way. */
 enum lights { LIGHTS_RADIOSITY, LIGHTS_OPEN, LIGHTS_SHADED };
 
+/* What lights give a plane, as one light above it. */
+static struct sky_light light_of_plane(const struct sky_light *lights, size_t n, struct vec3 normal)
+{
+    struct sky_light sum = { .direction = normal };
+    for (size_t i = 0; i < n; i++)
+        for (int c = 0; c < 3; c++) sum.color[c] += lights[i].color[c] * fmax(0, vec3_dot(lights[i].direction, normal));
+    return sum;
+}
+
 static void write_light(struct sdl *sdl, const struct passes *p, const struct pass_settings *settings, enum lights lights)
 {
     const struct light *light = p->light;
@@ -208,14 +217,17 @@ static void write_light(struct sdl *sdl, const struct passes *p, const struct pa
     sdl_declare_string(sdl, "Sky_Map", p->sky_map);
     if (lights == LIGHTS_RADIOSITY || p->scene->ground_reflection > 0) sdl_include(sdl, "sky.inc");
     if (lights == LIGHTS_RADIOSITY) return;
-    /* On a level plane without anything to shade it, one light gives what all of them give. */
-    size_t n = lights == LIGHTS_OPEN ? 1 : settings->sky_lights;
+    size_t n = settings->sky_lights;
     struct sky_light *sky = calloc(n, sizeof *sky);
     if (!sky) {
         error_set(&sdl->err, ERR_MEMORY, "no memory for the sky's lights");
         return;
     }
     light_sample_sky(sky, n, light);
+    if (lights == LIGHTS_OPEN) { /* with nothing to shade the plane, one light gives what all of them give */
+        sky[0] = light_of_plane(sky, n, p->scene->ground.normal);
+        n = 1;
+    }
     /* Each light's share of the hemisphere as a cone: 2 pi (1 - cos r) = 2 pi / n. */
     double radius = acos(1 - 1.0 / (double)n);
     sdl_declare_number(sdl, "Sky_Light_Soft", settings->soft_sky_lights && n > 1 ? tan(radius) : 0);

@@ -192,6 +192,33 @@ int main(void)
         receiver_release(&receiver);
         light_release(&light);
     }
+    /* On a slope, far from what stands there, the passes agree as well. */
+    struct light light;
+    struct receiver receiver;
+    struct image pass[3] = { { 0 } };
+    size_t index = 0, open = 0, wrong = 0;
+    scene.sky = SKY_OVERCAST;
+    scene.sun = SUN_NONE;
+    scene.ground.normal = vec3_unit(vec3(0.2, 0.1, 1));
+    entity.world_from_entity = entity_stand(&scene.ground, vec3(0, 0, 0), 0.4);
+    if (OK(light_create(&light, &scene, &err) && sky_map_write(sky_map, out, &light, &err) &&
+           receiver_create(&receiver, &entity, &scene.ground, &light, &err), "a slope: light and receivers")) {
+        struct passes p = { &scene, sky_map, &light, { 0 }, scene.world_from_camera, &entity, &index, 1, &receiver, 1 };
+        OK(view_cover(&p.view, &scene.camera, (struct rect){ 0, 0, 200, 150 }, &err), "a slope: a view");
+        if (OK(render(pass, out, &p), "a slope: POV-Ray renders all three passes"))
+            for (int y = 0; y < pass[1].height_px; y++)
+                for (int x = 0; x < pass[1].width_px; x++) {
+                    const float *plane = image_f32(&pass[1], x, y), *shadow = image_f32(&pass[2], x, y);
+                    if (plane[3] < 0.5f) continue;
+                    double ratio = (double)(shadow[1] / plane[1]);
+                    open += ratio > 0.98;
+                    wrong += ratio > 1.002;
+                }
+        OK(open > 50 && wrong == 0, "a slope: ground in the open is not shaded (%zu px), none is brighter (%zu px)", open, wrong);
+        for (int i = 0; i < 3; i++) image_release(&pass[i]);
+        receiver_release(&receiver);
+        light_release(&light);
+    }
     pid_t child = fork();
     if (child == 0) {
         execlp("rm", "rm", "-rf", out, (char *)NULL);
