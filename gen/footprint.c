@@ -3,11 +3,13 @@
 #include <math.h>
 #include <stdbool.h>
 
-#define ARC_STEPS 64   /* a box edge is seen under less than pi: less than 3 deg a step */
-#define GRID_STEPS 64  /* across one photograph */
-#define MARGIN_PX 2    /* what a curved edge can bulge between two samples of it, and rounding */
+#define ARC_STEPS 64  /* a box edge is seen under less than pi: less than 3 deg a step */
+#define GRID_STEPS 64 /* across one photograph */
+#define MARGIN_PX 2   /* what a curved edge can bulge between two samples of it, and rounding */
 
-struct span { double x0, y0, x1, y1; };
+struct span {
+    double x0, y0, x1, y1;
+};
 
 static void span_add(struct span *span, struct vec2 q, double margin)
 {
@@ -46,13 +48,15 @@ static bool add_edges(struct span *span, const struct camera *camera, const stru
             double angle = atan2(vec3_norm(vec3_cross(u, v)), vec3_dot(u, v)), sine = sin(angle);
             for (int k = 0; k <= ARC_STEPS; k++) {
                 double t = (double)k / ARC_STEPS;
-                struct vec3 d = sine < 1e-9
-                    ? vec3_add(vec3_scale(u, 1 - t), vec3_scale(v, t))
-                    : vec3_add(vec3_scale(u, sin((1 - t) * angle) / sine), vec3_scale(v, sin(t * angle) / sine));
+                struct vec3 d = sine < 1e-9 ? vec3_add(vec3_scale(u, 1 - t), vec3_scale(v, t))
+                                            : vec3_add(vec3_scale(u, sin((1 - t) * angle) / sine),
+                                                       vec3_scale(v, sin(t * angle) / sine));
                 struct error ignored = ERROR_NONE;
                 struct vec2 q;
-                if (camera_project(camera, &q, d, &ignored)) span_add(span, q, MARGIN_PX);
-                else all = false;
+                if (camera_project(camera, &q, d, &ignored))
+                    span_add(span, q, MARGIN_PX);
+                else
+                    all = false;
             }
         }
     return all;
@@ -100,7 +104,9 @@ struct rect footprint(const struct camera *camera, struct pose camera_from_box, 
     /* Around a camera within the box, or behind which it reaches, edges bound the wrong side. */
     if (!all || ray_meets_box(box_from_camera.translation, backward, min_m, max_m))
         add_grid(&span, camera, box_from_camera, min_m, max_m, limits_px);
-    struct rect r = { clamp_px(floor(span.x0), limits_px.x0, limits_px.x1), clamp_px(floor(span.y0), limits_px.y0, limits_px.y1),
-                      clamp_px(ceil(span.x1), limits_px.x0, limits_px.x1), clamp_px(ceil(span.y1), limits_px.y0, limits_px.y1) };
+    struct rect r = { clamp_px(floor(span.x0), limits_px.x0, limits_px.x1),
+                      clamp_px(floor(span.y0), limits_px.y0, limits_px.y1),
+                      clamp_px(ceil(span.x1), limits_px.x0, limits_px.x1),
+                      clamp_px(ceil(span.y1), limits_px.y0, limits_px.y1) };
     return r.x0 < r.x1 && r.y0 < r.y1 ? r : (struct rect){ 0, 0, 0, 0 };
 }

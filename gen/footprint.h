@@ -4,7 +4,7 @@
 
 #include "lib/camera.h"
 #include "lib/vec.h"
-#include "lib/view.h"
+#include "lib/rect.h"
 
 /* A rectangle within `limits_px` (which may reach beyond the photograph) that covers every
  * pixel whose ray meets the box; at most some pixels larger than needed as long as the whole

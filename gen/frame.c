@@ -379,14 +379,6 @@ bool generator_prepare(struct generator *g, const size_t *frames, size_t n, stru
     return ok;
 }
 
-static struct rect rect_union(struct rect a, struct rect b)
-{
-    if (a.x1 <= a.x0 || a.y1 <= a.y0) return b;
-    if (b.x1 <= b.x0 || b.y1 <= b.y0) return a;
-    return (struct rect){ a.x0 < b.x0 ? a.x0 : b.x0, a.y0 < b.y0 ? a.y0 : b.y0, a.x1 > b.x1 ? a.x1 : b.x1,
-                          a.y1 > b.y1 ? a.y1 : b.y1 };
-}
-
 /* The part of the photograph that can change: entities as traced, and receivers found by
  * rays on a coarse grid, which works whatever lies behind the camera or beyond the lens.
  * Out: matters (entities): seen, or shading what is seen */
@@ -396,7 +388,7 @@ static struct rect changed_window(bool *matters, const struct generator *g, cons
     struct rect window = { 0 };
     int width = g->camera.width_px, height = g->camera.height_px;
     for (size_t i = 0; i < labels->entity_count; i++) {
-        window = rect_union(window, labels->entities[i].mask_px);
+        window = rect_unite(window, labels->entities[i].mask_px);
         matters[i] = labels->entities[i].in_frame;
     }
     for (int y = 0; y < height + STEP; y += STEP)
@@ -408,7 +400,7 @@ static struct rect changed_window(bool *matters, const struct generator *g, cons
             for (size_t i = 0; i < g->scene->entity_count; i++)
                 if (receiver_contains(&g->receivers[i], p)) {
                     matters[i] = true;
-                    window = rect_union(window, (struct rect){ x - STEP, y - STEP, x + STEP, y + STEP });
+                    window = rect_unite(window, (struct rect){ x - STEP, y - STEP, x + STEP, y + STEP });
                 }
         }
     if (window.x1 <= window.x0) return window;

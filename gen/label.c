@@ -142,7 +142,8 @@ static bool write_amodal(const char *folder, const struct frame_labels *labels, 
         snprintf(depth, sizeof depth, "%05d.exr", (int)c->entities[i].id);
         json_array_append_new(list, json_pack("{s:i, s:{s:[ii], s:s}, s:o, s:s, s:o}", "id", (int)c->entities[i].id,
                                               "segmentation", "size", height, width, "counts", counts ? counts : "",
-                                              "depth_range_m", json_depth_range(l), "depth", depth, "depth_box_px", json_box(l->mask_px)));
+                                              "depth_range_m", json_depth_range(l), "depth", depth,
+                                              "depth_box_px", json_box(l->mask_px)));
         ok = counts || error_set(err, ERR_MEMORY, "no memory for a mask");
         free(counts);
         rle_release(&rle);

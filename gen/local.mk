@@ -31,6 +31,7 @@ gen_libgen_a_SOURCES = \
   %D%/scene_pose.c %D%/scene_pose.h \
   %D%/schema.c %D%/schema.h \
   %D%/schema_words.c %D%/schema_words.h \
+  %D%/screen.c %D%/screen.h \
   %D%/sdl.c %D%/sdl.h \
   %D%/shape.c %D%/shape.h \
   %D%/sun.c %D%/sun.h \

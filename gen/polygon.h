@@ -3,7 +3,7 @@
 #define STAFFAGE_GEN_POLYGON_H
 
 #include "lib/vec.h"
-#include "lib/view.h"
+#include "lib/rect.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -46,7 +46,8 @@ void rays_begin_row(struct rays *rays, int y)
 static bool exact(const struct rays *rays, struct vec3 *direction, int index)
 {
     struct error none = ERROR_NONE;
-    return camera_unproject(rays->camera, direction, (struct vec2){ index - rays->camera->width_px + 0.5, rays->y + 0.5 }, &none);
+    return camera_unproject(rays->camera, direction,
+                            (struct vec2){ index - rays->camera->width_px + 0.5, rays->y + 0.5 }, &none);
 }
 
 static bool node(struct rays *rays, int k)
@@ -61,7 +62,8 @@ static struct vec3 between(const struct vec3 p[4], double t)
 {
     double a = -t * (t - 1) * (t - 2) / 6, b = (t + 1) * (t - 1) * (t - 2) / 2, c = -(t + 1) * t * (t - 2) / 2,
            d = (t + 1) * t * (t - 1) / 6;
-    return vec3_unit(vec3(a * p[0].x + b * p[1].x + c * p[2].x + d * p[3].x, a * p[0].y + b * p[1].y + c * p[2].y + d * p[3].y,
+    return vec3_unit(vec3(a * p[0].x + b * p[1].x + c * p[2].x + d * p[3].x,
+                          a * p[0].y + b * p[1].y + c * p[2].y + d * p[3].y,
                           a * p[0].z + b * p[1].z + c * p[2].z + d * p[3].z));
 }
 
@@ -85,7 +87,8 @@ static void make_cell(struct rays *rays, int cell)
 bool rays_get(struct rays *rays, struct vec3 *direction, int x)
 {
     if (rays->pinhole) {
-        *direction = vec3_unit(vec3((x + 0.5 - rays->in.cx_px) / rays->in.fx_px, (rays->y + 0.5 - rays->in.cy_px) / rays->in.fy_px, 1));
+        *direction = vec3_unit(
+            vec3((x + 0.5 - rays->in.cx_px) / rays->in.fx_px, (rays->y + 0.5 - rays->in.cy_px) / rays->in.fy_px, 1));
         return true;
     }
     int index = x + rays->camera->width_px;

@@ -9,7 +9,10 @@
 #define BATCH 64 /* rays that go to Embree together */
 
 /* What the filter of a mesh with a MASK material is given. */
-struct masked_mesh { const struct mesh *mesh; const struct material *material; };
+struct masked_mesh {
+    const struct mesh *mesh;
+    const struct material *material;
+};
 
 struct shape {
     const struct model *model;
@@ -29,7 +32,8 @@ static void pass_holes(const struct RTCFilterFunctionNArguments *args)
     for (unsigned i = 0; i < args->N; i++) {
         if (args->valid[i] == 0) continue;
         const uint32_t *corner = masked->mesh->triangle[triangle[i]];
-        const float *a = masked->mesh->uv[corner[0]], *b = masked->mesh->uv[corner[1]], *c = masked->mesh->uv[corner[2]];
+        const float *a = masked->mesh->uv[corner[0]], *b = masked->mesh->uv[corner[1]],
+                    *c = masked->mesh->uv[corner[2]];
         double kb = (double)u[i], kc = (double)v[i], ka = 1 - kb - kc;
         if (material_alpha(masked->material, ka * (double)a[0] + kb * (double)b[0] + kc * (double)c[0],
                            ka * (double)a[1] + kb * (double)b[1] + kc * (double)c[1]) == 0)
@@ -125,7 +129,8 @@ bool shape_bounds(const struct shape *shape, struct vec3 *min_m, struct vec3 *ma
     return true;
 }
 
-static void hit_batch(const struct shape *shape, double *range_m, struct vec3 origin_m, const struct vec3 *directions, size_t n)
+static void hit_batch(const struct shape *shape, double *range_m, struct vec3 origin_m, const struct vec3 *directions,
+                      size_t n)
 {
     struct RTCRayHit hits[BATCH];
     double start[BATCH];
@@ -134,8 +139,14 @@ static void hit_batch(const struct shape *shape, double *range_m, struct vec3 or
         struct vec3 d = directions[i];
         start[i] = fmax(0, vec3_dot(vec3_sub(shape->centre_m, origin_m), d) - shape->radius_m);
         struct vec3 o = vec3_add(origin_m, vec3_scale(d, start[i]));
-        hits[i].ray = (struct RTCRay){ .org_x = (float)o.x, .org_y = (float)o.y, .org_z = (float)o.z, .dir_x = (float)d.x,
-                                       .dir_y = (float)d.y, .dir_z = (float)d.z, .tfar = FLT_MAX, .mask = UINT32_MAX };
+        hits[i].ray = (struct RTCRay){ .org_x = (float)o.x,
+                                       .org_y = (float)o.y,
+                                       .org_z = (float)o.z,
+                                       .dir_x = (float)d.x,
+                                       .dir_y = (float)d.y,
+                                       .dir_z = (float)d.z,
+                                       .tfar = FLT_MAX,
+                                       .mask = UINT32_MAX };
         hits[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
         hits[i].hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     }
@@ -147,7 +158,8 @@ static void hit_batch(const struct shape *shape, double *range_m, struct vec3 or
         range_m[i] = hits[i].hit.geomID == RTC_INVALID_GEOMETRY_ID ? INFINITY : start[i] + (double)hits[i].ray.tfar;
 }
 
-void shape_hits(const struct shape *shape, double *range_m, struct vec3 origin_m, const struct vec3 *directions, size_t n)
+void shape_hits(const struct shape *shape, double *range_m, struct vec3 origin_m, const struct vec3 *directions,
+                size_t n)
 {
     for (size_t at = 0; at < n; at += BATCH)
         hit_batch(shape, range_m + at, origin_m, directions + at, n - at < BATCH ? n - at : BATCH);

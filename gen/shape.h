@@ -24,6 +24,7 @@ bool shape_bounds(const struct shape *shape, struct vec3 *min_m, struct vec3 *ma
 /* Where rays first meet the model.
  * Out: range_m (n) along each ray, > 0; INFINITY where it meets nothing
  * In:  origin_m, directions (n) unit, in model coordinates; neighbours in the list had better be neighbours in space */
-void shape_hits(const struct shape *shape, double *range_m, struct vec3 origin_m, const struct vec3 *directions, size_t n);
+void shape_hits(const struct shape *shape, double *range_m, struct vec3 origin_m, const struct vec3 *directions,
+                size_t n);
 
 #endif

@@ -1,8 +1,8 @@
 #include "gen/trace.h"
 
 #include "gen/footprint.h"
-#include "gen/polygon.h"
 #include "gen/rays.h"
+#include "gen/screen.h"
 #include "gen/shape.h"
 
 #include <math.h>
@@ -10,7 +10,6 @@
 #include <string.h>
 
 #define OUTSIDE_RAYS 4000000.0 /* at most about so many for what of an entity lies outside the photograph */
-#define EDGE_PX 2              /* an entity's soft edge in a rendered picture lies within so many pixels */
 
 struct tracer {
     RTCDevice device;
@@ -57,34 +56,16 @@ static const struct shape *tracer_shape(const struct tracer *tracer, const struc
     return NULL;
 }
 
-/* A plane in camera coordinates that rays from the camera meet at range level / (normal . direction). */
-struct sight_plane { struct vec3 normal; double level_m; };
-
-static double sight_range(struct sight_plane plane, struct vec3 direction)
-{
-    double range = plane.level_m / vec3_dot(plane.normal, direction);
-    return range > 0 ? range : INFINITY;
-}
-
-struct screen {
-    const struct occluder *occluder;
-    struct polygon polygon;
-    struct rect bounds_px;
-    struct sight_plane plane;
-    uint64_t *samples; /* (width of bounds) of a row */
-    bool *inside;      /* the same */
-};
-
 /* An entity in this frame. */
 struct cast {
     const struct shape *shape;
     struct pose entity_from_camera;
-    struct rect reach_px;  /* where it can be, beyond the photograph as well */
-    struct rect frame_px;  /* the part of that inside the photograph */
-    uint8_t *mask;         /* (h,w) of frame_px */
+    struct rect reach_px; /* where it can be, beyond the photograph as well */
+    struct rect frame_px; /* the part of that inside the photograph */
+    uint8_t *mask;        /* (h,w) of frame_px */
     float *depth_m;
-    int stride_px;         /* each ray outside stands for stride x stride pixels */
-    int64_t outside;       /* amodal pixels outside */
+    int stride_px;   /* each ray outside stands for stride x stride pixels */
+    int64_t outside; /* amodal pixels outside */
     struct rect outside_px;
 };
 
@@ -96,35 +77,15 @@ struct frame {
     struct screen *screens;
     size_t screen_count;
     struct sight_plane ground;
-    double *range_m;            /* (width) of the nearest entity in a row */
-    struct vec3 *probe;         /* (3 width) directions of rays at an entity, in its coordinates */
-    double *probe_z;            /* the same rays' z in the camera */
-    double *probe_range_m;      /* where they meet it */
+    double *range_m;       /* (width) of the nearest entity in a row */
+    struct vec3 *probe;    /* (3 width) directions of rays at an entity, in its coordinates */
+    double *probe_z;       /* the same rays' z in the camera */
+    double *probe_range_m; /* where they meet it */
     int *probe_x;
-    ptrdiff_t *front;           /* (width) what is in front: -1, an entity, or cast_count + a screen */
-    int64_t *counts;            /* (cast_count, cast_count + screen_count): pixels of an entity by what is in front there */
-    struct image ahead;         /* F32 1, only with screens: range of the nearest entity, infinite where there is none */
+    ptrdiff_t *front;   /* (width) what is in front: -1, an entity, or cast_count + a screen */
+    int64_t *counts;    /* (cast_count, cast_count + screen_count): pixels of an entity by what is in front there */
+    struct image ahead; /* F32 1, only with screens: range of the nearest entity, infinite where there is none */
 };
-
-static struct rect rect_intersect(struct rect a, struct rect b)
-{
-    struct rect r = { a.x0 > b.x0 ? a.x0 : b.x0, a.y0 > b.y0 ? a.y0 : b.y0, a.x1 < b.x1 ? a.x1 : b.x1,
-                      a.y1 < b.y1 ? a.y1 : b.y1 };
-    return r.x0 < r.x1 && r.y0 < r.y1 ? r : (struct rect){ 0, 0, 0, 0 };
-}
-
-static struct rect rect_unite(struct rect a, struct rect b)
-{
-    if (a.x0 == a.x1) return b;
-    if (b.x0 == b.x1) return a;
-    return (struct rect){ a.x0 < b.x0 ? a.x0 : b.x0, a.y0 < b.y0 ? a.y0 : b.y0, a.x1 > b.x1 ? a.x1 : b.x1,
-                          a.y1 > b.y1 ? a.y1 : b.y1 };
-}
-
-static size_t rect_area(struct rect r)
-{
-    return (size_t)(r.x1 - r.x0) * (size_t)(r.y1 - r.y0);
-}
 
 /* Grow a rectangle to hold side x side pixels from (x, y) on as well. */
 static void rect_add(struct rect *r, int x, int y, int side)
@@ -136,7 +97,8 @@ static bool cast_init(struct cast *cast, const struct tracer *tracer, const stru
                       struct pose world_from_camera, const struct entity *entity, struct error *err)
 {
     cast->shape = tracer_shape(tracer, entity->model);
-    if (!cast->shape) return error_set(err, ERR_BUG, "entity %s has a model that the tracer was not made with", entity->name);
+    if (!cast->shape)
+        return error_set(err, ERR_BUG, "entity %s has a model that the tracer was not made with", entity->name);
     cast->entity_from_camera = pose_compose(pose_inverse(entity->world_from_entity), world_from_camera);
     struct vec3 min_m, max_m;
     if (!shape_bounds(cast->shape, &min_m, &max_m)) return true;
@@ -152,29 +114,6 @@ static bool cast_init(struct cast *cast, const struct tracer *tracer, const stru
     cast->depth_m = malloc(area * sizeof *cast->depth_m);
     if (!cast->mask || !cast->depth_m) return error_set(err, ERR_MEMORY, "no memory for the mask of %s", entity->name);
     for (size_t i = 0; i < area; i++) cast->depth_m[i] = NAN;
-    return true;
-}
-
-static bool screen_init(struct screen *screen, const struct camera *camera, struct pose world_from_camera,
-                        const struct occluder *occluder, struct error *err)
-{
-    screen->occluder = occluder;
-    if (!polygon_init(&screen->polygon, occluder->polygon_px, occluder->polygon_count))
-        return error_set(err, ERR_MEMORY, "no memory for the outline of %s", occluder->name);
-    screen->bounds_px = polygon_bounds(&screen->polygon, camera->width_px, camera->height_px);
-    size_t width = (size_t)(screen->bounds_px.x1 - screen->bounds_px.x0) + 1;
-    screen->samples = malloc(width * sizeof *screen->samples);
-    screen->inside = malloc(width * sizeof *screen->inside);
-    if (!screen->samples || !screen->inside)
-        return error_set(err, ERR_MEMORY, "no memory for the outline of %s", occluder->name);
-    struct vec3 towards = vec3_sub(occluder->foot_m, world_from_camera.translation);
-    towards.z = 0;
-    double distance_m = vec3_norm(towards);
-    if (distance_m < 1e-6)
-        return error_set(err, ERR_INPUT, "occluder %s: stands right above or below the camera, so that no upright plane faces it",
-                         occluder->name);
-    screen->plane.normal = mat3_apply(mat3_transpose(world_from_camera.rotation), vec3_scale(towards, 1 / distance_m));
-    screen->plane.level_m = distance_m;
     return true;
 }
 
@@ -194,11 +133,10 @@ static bool frame_init(struct frame *frame, const struct tracer *tracer, const s
     frame->probe_z = malloc(3 * width * sizeof *frame->probe_z);
     frame->probe_range_m = malloc(3 * width * sizeof *frame->probe_range_m);
     frame->probe_x = malloc(3 * width * sizeof *frame->probe_x);
-    if (!frame->probe || !frame->probe_z || !frame->probe_range_m || !frame->probe_x || !frame->casts || !frame->screens || !frame->range_m || !frame->front ||
-        !frame->counts)
+    if (!frame->casts || !frame->screens || !frame->range_m || !frame->front || !frame->counts || !frame->probe ||
+        !frame->probe_z || !frame->probe_range_m || !frame->probe_x)
         return error_set(err, ERR_MEMORY, "no memory for the labels of a frame");
-    frame->ground.normal = mat3_apply(mat3_transpose(world_from_camera.rotation), ground->normal);
-    frame->ground.level_m = ground->offset_m - vec3_dot(ground->normal, world_from_camera.translation);
+    frame->ground = sight_plane(ground->normal, ground->offset_m, world_from_camera);
     frame->cast_count = entity_count;
     for (size_t i = 0; i < entity_count; i++)
         if (!cast_init(&frame->casts[i], tracer, camera, world_from_camera, &entities[i], err)) return false;
@@ -214,11 +152,7 @@ static void frame_release(struct frame *frame)
         free(frame->casts[i].mask);
         free(frame->casts[i].depth_m);
     }
-    for (size_t i = 0; i < frame->screen_count; i++) {
-        polygon_release(&frame->screens[i].polygon);
-        free(frame->screens[i].samples);
-        free(frame->screens[i].inside);
-    }
+    for (size_t i = 0; i < frame->screen_count; i++) screen_release(&frame->screens[i]);
     rays_release(&frame->rays);
     free(frame->probe);
     free(frame->probe_z);
@@ -273,7 +207,8 @@ static void trace_row(struct frame *frame, int y)
         }
     }
     if (frame->screen_count > 0)
-        for (int x = 0; x < frame->rays.camera->width_px; x++) *image_f32(&frame->ahead, x, y) = (float)frame->range_m[x];
+        for (int x = 0; x < frame->rays.camera->width_px; x++)
+            *image_f32(&frame->ahead, x, y) = (float)frame->range_m[x];
 }
 
 /* What screens put in front of a row's entities. */
@@ -346,7 +281,8 @@ static void trace_outside(struct frame *frame, int y)
 static int by_pixels(const void *a, const void *b)
 {
     const struct hider *x = a, *y = b;
-    return x->pixels != y->pixels ? (x->pixels < y->pixels) - (x->pixels > y->pixels) : (x->id > y->id) - (x->id < y->id);
+    return x->pixels != y->pixels ? (x->pixels < y->pixels) - (x->pixels > y->pixels)
+                                  : (x->id > y->id) - (x->id < y->id);
 }
 
 static bool list_hiders(const struct frame *frame, struct entity_labels *out, size_t index, struct error *err)
@@ -358,8 +294,8 @@ static bool list_hiders(const struct frame *frame, struct entity_labels *out, si
     for (size_t k = 0; k < things; k++) {
         if (k == index || counts[k] == 0) continue;
         out->hiders[n++] = k < frame->cast_count
-            ? (struct hider){ frame->entities[k].id, frame->entities[k].name, counts[k] }
-            : (struct hider){ 0, frame->screens[k - frame->cast_count].occluder->name, counts[k] };
+                               ? (struct hider){ frame->entities[k].id, frame->entities[k].name, counts[k] }
+                               : (struct hider){ 0, frame->screens[k - frame->cast_count].occluder->name, counts[k] };
     }
     out->hider_count = n;
     qsort(out->hiders, n, sizeof *out->hiders, by_pixels);
@@ -375,7 +311,8 @@ static bool crop(const struct cast *cast, struct entity_labels *out, struct erro
     out->depth_m = malloc(w * h * sizeof *out->depth_m);
     if (!out->mask || !out->depth_m) return error_set(err, ERR_MEMORY, "no memory for the labels of a frame");
     for (size_t y = 0; y < h; y++) {
-        size_t from = ((size_t)(out->mask_px.y0 - cast->frame_px.y0) + y) * stride + (size_t)(out->mask_px.x0 - cast->frame_px.x0);
+        size_t from = ((size_t)(out->mask_px.y0 - cast->frame_px.y0) + y) * stride +
+                      (size_t)(out->mask_px.x0 - cast->frame_px.x0);
         memcpy(out->mask + y * w, cast->mask + from, w * sizeof *out->mask);
         memcpy(out->depth_m + y * w, cast->depth_m + from, w * sizeof *out->depth_m);
     }
@@ -396,64 +333,6 @@ static bool finish_entity(const struct frame *frame, struct entity_labels *out, 
     return list_hiders(frame, out, index, err) && crop(cast, out, err);
 }
 
-/* Range of the nearest entity whose edge can reach a pixel. */
-static double ahead_m(const struct frame *frame, int x, int y)
-{
-    float near = *image_f32(&frame->ahead, x, y);
-    if (isfinite(near)) return (double)near;
-    int w = frame->rays.camera->width_px, h = frame->rays.camera->height_px;
-    for (int v = y > EDGE_PX ? y - EDGE_PX : 0; v <= y + EDGE_PX && v < h; v++)
-        for (int u = x > EDGE_PX ? x - EDGE_PX : 0; u <= x + EDGE_PX && u < w; u++)
-            near = fminf(near, *image_f32(&frame->ahead, u, v));
-    return (double)near;
-}
-
-static uint8_t share(uint64_t hidden_samples)
-{
-    return (uint8_t)lround(255.0 * (64 - __builtin_popcountll(hidden_samples)) / 64);
-}
-
-/* What of entities and ground the screens leave, as shares of a pixel. */
-static bool share_screens(struct frame *frame, struct frame_labels *labels, struct error *err)
-{
-    int width = frame->rays.camera->width_px, height = frame->rays.camera->height_px;
-    if (!image_init(&labels->visible, width, height, 1, PIXEL_U8, err) ||
-        !image_init(&labels->receiver, width, height, 1, PIXEL_U8, err))
-        return false;
-    memset(labels->visible.data, 255, image_size(&labels->visible));
-    memset(labels->receiver.data, 255, image_size(&labels->receiver));
-    uint64_t *hidden = calloc((size_t)width * 2, sizeof *hidden), *covered = hidden + width;
-    if (!hidden) return error_set(err, ERR_MEMORY, "no memory for the labels of a frame");
-    for (int y = 0; y < height; y++) {
-        bool any = false;
-        rays_begin_row(&frame->rays, y);
-        for (size_t k = 0; k < frame->screen_count; k++) {
-            struct screen *screen = &frame->screens[k];
-            struct rect r = screen->bounds_px;
-            if (y < r.y0 || y >= r.y1) continue;
-            any = true;
-            polygon_row_samples(&screen->polygon, screen->samples, y, r.x0, r.x1);
-            for (int x = r.x0; x < r.x1; x++) {
-                uint64_t samples = screen->samples[x - r.x0];
-                struct vec3 direction;
-                if (!samples || !rays_get(&frame->rays, &direction, x)) continue;
-                double range = sight_range(screen->plane, direction), entity = ahead_m(frame, x, y);
-                if (isfinite(entity) && range < entity) hidden[x] |= samples;
-                double ground = sight_range(frame->ground, direction);
-                if (isfinite(ground) && range < ground) covered[x] |= samples;
-            }
-        }
-        if (!any) continue;
-        for (int x = 0; x < width; x++) {
-            *image_u8(&labels->visible, x, y) = share(hidden[x]);
-            *image_u8(&labels->receiver, x, y) = share(covered[x]);
-            hidden[x] = covered[x] = 0;
-        }
-    }
-    free(hidden);
-    return true;
-}
-
 bool trace_frame(struct frame_labels *labels, struct tracer *tracer, const struct camera *camera,
                  struct pose world_from_camera, const struct plane *ground, const struct entity *entities,
                  size_t entity_count, const struct occluder *occluders, size_t occluder_count, struct error *err)
@@ -461,7 +340,8 @@ bool trace_frame(struct frame_labels *labels, struct tracer *tracer, const struc
     struct frame frame = { 0 };
     struct frame_labels out = { 0 };
     bool ok = false;
-    if (!frame_init(&frame, tracer, camera, world_from_camera, ground, entities, entity_count, occluders, occluder_count, err) ||
+    if (!frame_init(&frame, tracer, camera, world_from_camera, ground, entities, entity_count, occluders,
+                    occluder_count, err) ||
         !image_init(&out.instance, camera->width_px, camera->height_px, 1, PIXEL_U16, err) ||
         !image_init(&out.depth, camera->width_px, camera->height_px, 1, PIXEL_F32, err))
         goto out;
@@ -482,7 +362,9 @@ bool trace_frame(struct frame_labels *labels, struct tracer *tracer, const struc
     }
     for (size_t i = 0; i < entity_count; i++)
         if (!finish_entity(&frame, &out.entities[i], i, err)) goto out;
-    if (occluder_count > 0 && !share_screens(&frame, &out, err)) goto out;
+    if (occluder_count > 0 && !screens_share(&out.visible, &out.receiver, frame.screens, frame.screen_count,
+                                             &frame.rays, &frame.ahead, frame.ground, err))
+        goto out;
     *labels = out;
     ok = true;
 out:

@@ -38,8 +38,8 @@ struct entity_labels {
                                    * reaches as far as pixels_total counts */
     int64_t pixels_visible, pixels_amodal;     /* inside the photograph */
     int64_t pixels_total;         /* amodal, with those outside the photograph, up to one picture beyond each side
-                                   * and as far as the lens has rays; where an entity's part outside is searched
-                                   * over more than 4 Mpx, every stride-th pixel of every stride-th row stands for the rest */
+                                   * and as far as the lens has rays; an area outside of more than 4 Mpx
+                                   * is sampled, every stride-th pixel of every stride-th row */
     double visible_fraction;      /* visible / amodal (inside); 0 when nothing is inside */
     double truncation;            /* 1 - amodal inside / total; 1 when nothing is inside */
     struct hider *hiders;         /* most pixels first */
@@ -52,8 +52,8 @@ struct entity_labels {
 struct frame_labels {
     struct image instance;        /* U16 1: entity id, 0 none */
     struct image depth;           /* F32 1: z of the visible entity, NaN elsewhere */
-    struct image visible;         /* U8 1: 255 x share (8 x 8 samples) of the nearest entity at this pixel, or within 2 px of
-                                   * it, that no occluder hides; 255 elsewhere; empty without occluders */
+    struct image visible;         /* U8 1: 255 x share (8 x 8 samples) of the nearest entity at this pixel, or within
+                                   * 2 px of it, that no occluder hides; 255 elsewhere; empty without occluders */
     struct image receiver;        /* U8 1: the same for the ground plane; empty without occluders */
     struct entity_labels *entities; /* (n) in the order of the entities */
     size_t entity_count;

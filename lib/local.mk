@@ -7,6 +7,7 @@ lib_libstaffage_a_SOURCES = \
   %D%/file.c %D%/file.h \
   %D%/image.c %D%/image.h %D%/image_io.cpp \
   %D%/opencv.h \
+  %D%/rect.h \
   %D%/rle.c %D%/rle.h \
   %D%/vec.c %D%/vec.h \
   %D%/video_io.cpp \

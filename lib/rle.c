@@ -109,8 +109,10 @@ bool rle_from_string(struct rle *rle, const char *string, int width_px, int heig
         for (bool more = true; more; c++, shift += 5) {
             int bits = *c - 48;
             if (bits < 0 || bits > 63 || shift > 30) {
-                error_set(err, ERR_INPUT, *c ? "byte %zu of a mask string is out of place"
-                                             : "a mask string ends within a number at byte %zu", (size_t)(c - string) + 1);
+                error_set(err, ERR_INPUT,
+                          *c ? "byte %zu of a mask string is out of place"
+                             : "a mask string ends within a number at byte %zu",
+                          (size_t)(c - string) + 1);
                 goto out;
             }
             value |= (int64_t)(bits & 31) << shift;

@@ -6,7 +6,7 @@
 #define STAFFAGE_LIB_RLE_H
 
 #include "lib/error.h"
-#include "lib/view.h"
+#include "lib/rect.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -8,9 +8,7 @@
 #define STAFFAGE_LIB_VIEW_H
 
 #include "lib/camera.h"
-
-/* Half-open pixel rectangle [x0, x1) x [y0, y1). */
-struct rect { int x0, y0, x1, y1; };
+#include "lib/rect.h"
 
 struct view {
     int width_px, height_px;

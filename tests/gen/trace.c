@@ -12,7 +12,11 @@ static const struct camera pinhole = { CAMERA_PINHOLE, 320, 240, { 400, 400, 160
 static struct entity place(uint16_t id, const struct model *model, double x, double y, double z, double facing_rad)
 {
     double s = sin(facing_rad), c = cos(facing_rad);
-    return (struct entity){ .id = id, .name = "thing", .model_name = "solid", .class_ = CLASS_CAR, .model = model,
+    return (struct entity){ .id = id,
+                            .name = "thing",
+                            .model_name = "solid",
+                            .class_ = CLASS_CAR,
+                            .model = model,
                             .world_from_entity = { { { { s, -c, 0 }, { c, s, 0 }, { 0, 0, 1 } } }, { x, y, z } } };
 }
 
@@ -49,14 +53,19 @@ static void known_plate(void)
             bool in = x >= 120 && x < 200 && y >= 80 && y < 160;
             wrong += *image_u16(&labels.instance, x, y) != (in ? 7 : 0);
             double z = (double)*image_f32(&labels.depth, x, y);
-            if (in) worst = fmax(worst, fabs(z - 10));
-            else wrong += !isnan(z);
+            if (in)
+                worst = fmax(worst, fabs(z - 10));
+            else
+                wrong += !isnan(z);
         }
-    OK(wrong == 0, "the instance image holds its id in just its 80 x 80 pixels, and depth nothing elsewhere (%d wrong)", wrong);
+    OK(wrong == 0, "the instance image holds its id in just its 80 x 80 pixels, and depth nothing elsewhere (%d wrong)",
+       wrong);
     NEAR(worst, 0, 1e-5, "depth is the plate's z at every pixel");
     struct entity_labels *l = &labels.entities[0];
-    OK(l->in_frame && l->pixels_visible == 6400 && l->pixels_amodal == 6400 && l->pixels_total == 6400, "6400 pixels each way");
-    OK(same_rect(l->box_visible_px, 120, 80, 200, 160) && same_rect(l->box_amodal_px, 120, 80, 200, 160), "both boxes are half open");
+    OK(l->in_frame && l->pixels_visible == 6400 && l->pixels_amodal == 6400 && l->pixels_total == 6400,
+       "6400 pixels each way");
+    OK(same_rect(l->box_visible_px, 120, 80, 200, 160) && same_rect(l->box_amodal_px, 120, 80, 200, 160),
+       "both boxes are half open");
     OK(same_rect(l->mask_px, 120, 80, 200, 160), "the mask is cropped to its pixels");
     OK(l->visible_fraction == 1 && l->truncation == 0 && l->hider_count == 0, "nothing hides or cuts it");
     OK(!labels.visible.data && !labels.receiver.data, "without occluders there are no shares");
@@ -70,21 +79,25 @@ static void known_plate(void)
     struct entity far_ = place(7, &plate.model, 0, 1000, 0, M_PI);
     struct camera tele = pinhole;
     tele.params[0] = tele.params[1] = 40000;
-    OK(trace(&labels, &tele, &far_, 1, NULL, 0, &err) && labels.entities[0].pixels_visible == 6400, "100 times as far through 100 times the focal length");
+    OK(trace(&labels, &tele, &far_, 1, NULL, 0, &err) && labels.entities[0].pixels_visible == 6400,
+       "100 times as far through 100 times the focal length");
     worst = 0;
-    for (size_t i = 0; i < 6400 && labels.entities[0].mask; i++) worst = fmax(worst, fabs((double)labels.entities[0].depth_m[i] - 1000));
+    for (size_t i = 0; i < 6400 && labels.entities[0].mask; i++)
+        worst = fmax(worst, fabs((double)labels.entities[0].depth_m[i] - 1000));
     NEAR(worst, 0, 1e-4, "keeps the depth to a float's last bit");
     frame_labels_release(&labels);
 
     struct entity behind = place(7, &plate.model, 0, -10, 0, M_PI);
     OK(trace(&labels, &pinhole, &behind, 1, NULL, 0, &err), "an entity behind the camera is traced");
     l = &labels.entities[0];
-    OK(!l->in_frame && l->pixels_total == 0 && !l->mask && l->visible_fraction == 0 && l->truncation == 1, "and is not in the frame");
+    OK(!l->in_frame && l->pixels_total == 0 && !l->mask && l->visible_fraction == 0 && l->truncation == 1,
+       "and is not in the frame");
     frame_labels_release(&labels);
     solid_free(&plate);
 }
 
-/* Near: 80 x 80 pixels in the middle. Far: as large, 40 px to the right and 20 px lower, so the near one hides 40 x 60 of it. */
+/* Near: 80 x 80 pixels in the middle. Far: as large, 40 px to the right and 20 px lower, so the near one hides 40 x 60
+ * of it. */
 static void overlap(void)
 {
     struct error err = ERROR_NONE;
@@ -98,9 +111,12 @@ static void overlap(void)
     OK(front->pixels_visible == 6400 && front->hider_count == 0, "the nearer is whole");
     OK(hidden->pixels_amodal == 6400 && hidden->pixels_visible == 4000, "2400 of the further one's pixels are hidden");
     NEAR(hidden->visible_fraction, 0.625, 1e-12, "visible fraction");
-    OK(hidden->hider_count == 1 && hidden->hiders[0].id == 9 && hidden->hiders[0].pixels == 2400, "and the nearer hides them");
-    OK(same_rect(hidden->box_amodal_px, 160, 100, 240, 180) && same_rect(hidden->box_visible_px, 160, 100, 240, 180), "an L has the box of the whole");
-    OK(*image_u16(&labels.instance, 180, 120) == 9 && *image_u16(&labels.instance, 220, 120) == 3, "one owner a pixel, the nearest");
+    OK(hidden->hider_count == 1 && hidden->hiders[0].id == 9 && hidden->hiders[0].pixels == 2400,
+       "and the nearer hides them");
+    OK(same_rect(hidden->box_amodal_px, 160, 100, 240, 180) && same_rect(hidden->box_visible_px, 160, 100, 240, 180),
+       "an L has the box of the whole");
+    OK(*image_u16(&labels.instance, 180, 120) == 9 && *image_u16(&labels.instance, 220, 120) == 3,
+       "one owner a pixel, the nearest");
     NEAR((double)hidden->depth_m[0], 20, 1e-5, "amodal depth goes on behind what hides");
     frame_labels_release(&labels);
     solid_free(&near);
@@ -118,7 +134,8 @@ static void truncated(void)
     struct entity_labels *l = &labels.entities[0];
     NEAR(l->truncation, 0.5, 1e-12, "half outside is a truncation of 0.5");
     OK(l->pixels_total == 6400 && l->pixels_amodal == 3200, "counted in pixels");
-    OK(same_rect(l->box_amodal_px, -40, 80, 40, 160) && same_rect(l->box_visible_px, 0, 80, 40, 160), "the amodal box goes beyond the border");
+    OK(same_rect(l->box_amodal_px, -40, 80, 40, 160) && same_rect(l->box_visible_px, 0, 80, 40, 160),
+       "the amodal box goes beyond the border");
     frame_labels_release(&labels);
 
     struct entity out = place(1, &plate.model, -6, 10, 0, M_PI);
@@ -227,7 +244,8 @@ static void outline(void)
     for (int k = 0; k < 4; k++)
         for (int i = 0; i <= 8000; i++) {
             double t = i / 8000.0;
-            struct vec3 p = vec3(0, corner[k][0] + t * (corner[k + 1][0] - corner[k][0]), corner[k][1] + t * (corner[k + 1][1] - corner[k][1]));
+            struct vec3 p = vec3(0, corner[k][0] + t * (corner[k + 1][0] - corner[k][0]),
+                                 corner[k][1] + t * (corner[k + 1][1] - corner[k][1]));
             struct vec2 q;
             if (!camera_project(&camera, &q, pose_apply(camera_from_entity, p), &err)) continue;
             int x = (int)floor(q.x), y = (int)floor(q.y), inside = 0, outside = 0;
@@ -246,7 +264,8 @@ static void outline(void)
     int stray = 0;
     for (int y = 0; y < 480; y++)
         for (int x = 1; x < 640; x++)
-            stray += *image_u16(&labels.instance, x, y) != *image_u16(&labels.instance, x - 1, y) && !near_edge[y][x] && !near_edge[y][x - 1];
+            stray += *image_u16(&labels.instance, x, y) != *image_u16(&labels.instance, x - 1, y) && !near_edge[y][x] &&
+                     !near_edge[y][x - 1];
     OK(stray == 0, "and the mask changes nowhere else");
     frame_labels_release(&labels);
     solid_free(&plate);
@@ -269,22 +288,26 @@ static void holes(void)
     OK(trace(&labels, &pinhole, e, 1, NULL, 0, &err), "a masked plate is traced");
     OK(labels.entities[0].pixels_amodal == 4800, "a quarter is not there");
     OK(*image_u16(&labels.instance, 161, 121) == 0 && *image_u16(&labels.instance, 159, 121) == 1 &&
-       *image_u16(&labels.instance, 161, 119) == 1, "the lower right one: v is up");
+           *image_u16(&labels.instance, 161, 119) == 1,
+       "the lower right one: v is up");
     frame_labels_release(&labels);
 
     struct solid solid_behind;
     solid_plate(&solid_behind, 4, 4);
     e[1] = place(2, &solid_behind.model, 0, 20, -1, M_PI);
     OK(trace(&labels, &pinhole, e, 2, NULL, 0, &err) && labels.entities[1].pixels_visible == 1600 &&
-       *image_u16(&labels.instance, 161, 121) == 2, "what is behind is seen through it");
+           *image_u16(&labels.instance, 161, 121) == 2,
+       "what is behind is seen through it");
     frame_labels_release(&labels);
 
     plate.material.alpha_cutoff = 0.4;
-    OK(trace(&labels, &pinhole, e, 1, NULL, 0, &err) && labels.entities[0].pixels_amodal == 6400, "a texel of alpha above the cutoff is there");
+    OK(trace(&labels, &pinhole, e, 1, NULL, 0, &err) && labels.entities[0].pixels_amodal == 6400,
+       "a texel of alpha above the cutoff is there");
     frame_labels_release(&labels);
     plate.material.alpha_mode = ALPHA_BLEND;
     image_u8(&plate.texture, 0, 0)[3] = 10;
-    OK(trace(&labels, &pinhole, e, 1, NULL, 0, &err) && labels.entities[0].pixels_amodal == 6400, "glass counts as the entity");
+    OK(trace(&labels, &pinhole, e, 1, NULL, 0, &err) && labels.entities[0].pixels_amodal == 6400,
+       "glass counts as the entity");
     frame_labels_release(&labels);
     solid_free(&plate);
     solid_free(&solid_behind);
@@ -303,14 +326,20 @@ static void occluders(void)
     struct frame_labels labels = { 0 };
     OK(trace(&labels, &pinhole, &e, 1, before, 1, &err), "a plate behind a post is traced");
     struct entity_labels *l = &labels.entities[0];
-    OK(l->pixels_amodal == 6400 && l->pixels_visible == 5600, "the post hides the 10 x 80 pixels whose centres it covers");
-    OK(l->hider_count == 1 && l->hiders[0].id == 0 && !strcmp(l->hiders[0].name, "post") && l->hiders[0].pixels == 800, "and is named");
-    OK(*image_u16(&labels.instance, 145, 100) == 0 && isnan(*image_f32(&labels.depth, 145, 100)), "its pixels are nobody's");
+    OK(l->pixels_amodal == 6400 && l->pixels_visible == 5600,
+       "the post hides the 10 x 80 pixels whose centres it covers");
+    OK(l->hider_count == 1 && l->hiders[0].id == 0 && !strcmp(l->hiders[0].name, "post") && l->hiders[0].pixels == 800,
+       "and is named");
+    OK(*image_u16(&labels.instance, 145, 100) == 0 && isnan(*image_f32(&labels.depth, 145, 100)),
+       "its pixels are nobody's");
     OK(*image_u8(&labels.visible, 145, 100) == 0, "nothing of the plate is seen there");
-    OK(*image_u8(&labels.visible, 150, 100) == 191 && *image_u8(&labels.visible, 151, 100) == 255, "two of eight columns of samples hide a quarter of pixel 150");
-    OK(*image_u8(&labels.visible, 145, 78) == 0 && *image_u8(&labels.visible, 145, 77) == 255, "the plate's edge reaches 2 px beyond it");
+    OK(*image_u8(&labels.visible, 150, 100) == 191 && *image_u8(&labels.visible, 151, 100) == 255,
+       "two of eight columns of samples hide a quarter of pixel 150");
+    OK(*image_u8(&labels.visible, 145, 78) == 0 && *image_u8(&labels.visible, 145, 77) == 255,
+       "the plate's edge reaches 2 px beyond it");
     /* The foot is 5 m away, 1 m below: at y = 120 + 400 / 5 = 200. */
-    OK(*image_u8(&labels.receiver, 145, 199) == 0 && *image_u8(&labels.receiver, 145, 200) == 255, "ground beyond the foot is hidden, before it not");
+    OK(*image_u8(&labels.receiver, 145, 199) == 0 && *image_u8(&labels.receiver, 145, 200) == 255,
+       "ground beyond the foot is hidden, before it not");
     OK(*image_u8(&labels.receiver, 145, 119) == 255, "there is no ground above the horizon");
     OK(*image_u8(&labels.receiver, 150, 170) == 191, "and shares of a pixel are as for the plate");
     frame_labels_release(&labels);
@@ -318,7 +347,8 @@ static void occluders(void)
     OK(trace(&labels, &pinhole, &e, 1, before, 2, &err), "a plate behind a post and a sign is traced");
     l = &labels.entities[0];
     OK(l->hider_count == 2 && !strcmp(l->hiders[0].name, "post") && l->hiders[0].pixels == 750 &&
-       !strcmp(l->hiders[1].name, "sign") && l->hiders[1].pixels == 150, "a pixel is hidden by what is nearest, most pixels first");
+           !strcmp(l->hiders[1].name, "sign") && l->hiders[1].pixels == 150,
+       "a pixel is hidden by what is nearest, most pixels first");
     OK(l->pixels_visible + 750 + 150 == l->pixels_amodal, "hidden and visible pixels add up");
     frame_labels_release(&labels);
 
@@ -332,7 +362,8 @@ static void occluders(void)
     solid_plate(&wide, 8, 8);
     struct entity both[2] = { e, place(6, &wide.model, 0, 40, -3, M_PI) };
     OK(trace(&labels, &pinhole, both, 2, before, 1, &err), "a post between two plates is traced");
-    OK(labels.entities[0].pixels_visible == 6400 && labels.entities[1].hider_count == 1 && labels.entities[1].hiders[0].id == 5,
+    OK(labels.entities[0].pixels_visible == 6400 && labels.entities[1].hider_count == 1 &&
+           labels.entities[1].hiders[0].id == 5,
        "it hides neither the one before it, nor what that hides already");
     frame_labels_release(&labels);
 
@@ -354,7 +385,8 @@ static void repeats(void)
     struct frame_labels a = { 0 }, b = { 0 };
     bool ok = trace(&a, &camera, e, 2, NULL, 0, &err) && trace(&b, &camera, e, 2, NULL, 0, &err);
     OK(ok && !memcmp(a.instance.data, b.instance.data, image_size(&a.instance)) &&
-       !memcmp(a.depth.data, b.depth.data, image_size(&a.depth)), "a second run gives the same bits");
+           !memcmp(a.depth.data, b.depth.data, image_size(&a.depth)),
+       "a second run gives the same bits");
     frame_labels_release(&a);
     frame_labels_release(&b);
 
@@ -362,7 +394,8 @@ static void repeats(void)
     const struct model *models[1] = { &other };
     struct tracer *tracer = NULL;
     OK(tracer_create(&tracer, models, 1, &err) &&
-       !trace_frame(&a, tracer, &camera, camera_pose, &flat, e, 1, NULL, 0, &err) && err.code == ERR_BUG && !a.instance.data,
+           !trace_frame(&a, tracer, &camera, camera_pose, &flat, e, 1, NULL, 0, &err) && err.code == ERR_BUG &&
+           !a.instance.data,
        "an entity whose model the tracer does not have is a bug: %s", err.text);
     tracer_destroy(tracer);
     solid_free(&car);

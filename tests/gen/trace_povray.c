@@ -36,12 +36,14 @@ static bool write_scene(const char *path, struct pose pose, const struct entity 
     FILE *f = fopen(path, "w");
     if (!f) return false;
     const double *p = camera.params;
-    struct vec3 x = mat3_column(pose.rotation, 0), y = vec3_scale(mat3_column(pose.rotation, 1), -1), z = mat3_column(pose.rotation, 2);
+    struct vec3 x = mat3_column(pose.rotation, 0), y = vec3_scale(mat3_column(pose.rotation, 1), -1),
+                z = mat3_column(pose.rotation, 2);
     fputs("#version 3.7; global_settings { assumed_gamma 1 }\nbackground { rgb 0 }\ncamera {\n", f);
     put(f, "location", pose.translation);
     put(f, "right", vec3_scale(x, WIDTH / p[0]));
     put(f, "up", vec3_scale(y, HEIGHT / p[1]));
-    put(f, "direction", vec3_add(z, vec3_add(vec3_scale(x, (WIDTH / 2.0 - p[2]) / p[0]), vec3_scale(y, (p[3] - HEIGHT / 2.0) / p[1]))));
+    put(f, "direction",
+        vec3_add(z, vec3_add(vec3_scale(x, (WIDTH / 2.0 - p[2]) / p[0]), vec3_scale(y, (p[3] - HEIGHT / 2.0) / p[1]))));
     fputs("}\n", f);
     for (size_t i = 0; i < n; i++) {
         const struct mesh *m = &entities[i].model->meshes[0];
@@ -54,9 +56,12 @@ static bool write_scene(const char *path, struct pose pose, const struct entity 
         fprintf(f, "} face_indices { %zu", m->triangles);
         for (size_t k = 0; k < m->triangles; k++)
             fprintf(f, ",<%u,%u,%u>", m->triangle[k][0], m->triangle[k][1], m->triangle[k][2]);
-        fprintf(f, "} texture { pigment { gradient <%.12g,%.12g,%.12g> color_map { [0 rgb <%d,0,0>] [1 rgb <%d,1,0>] } scale %.12g "
-                "translate <%.12g,%.12g,%.12g> } finish { ambient 0 diffuse 0 emission 1 } } }\n",
-                z.x, z.y, z.z, entities[i].id, entities[i].id, FAR_M, pose.translation.x, pose.translation.y, pose.translation.z);
+        fprintf(
+            f,
+            "} texture { pigment { gradient <%.12g,%.12g,%.12g> color_map { [0 rgb <%d,0,0>] [1 rgb <%d,1,0>] } scale %.12g "
+            "translate <%.12g,%.12g,%.12g> } finish { ambient 0 diffuse 0 emission 1 } } }\n",
+            z.x, z.y, z.z, entities[i].id, entities[i].id, FAR_M, pose.translation.x, pose.translation.y,
+            pose.translation.z);
     }
     return fclose(f) == 0;
 }
@@ -92,17 +97,20 @@ static bool at_edge(const struct image *instance, int x, int y)
     return false;
 }
 
-static void compare(const struct frame_labels *labels, const struct image *picture, const struct entity *entities, size_t n)
+static void compare(const struct frame_labels *labels, const struct image *picture, const struct entity *entities,
+                    size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         long both = 0, either = 0;
         for (int y = 0; y < HEIGHT; y++)
             for (int x = 0; x < WIDTH; x++) {
-                bool ours = *image_u16(&labels->instance, x, y) == entities[i].id, theirs = id_at(picture, x, y) == entities[i].id;
+                bool ours = *image_u16(&labels->instance, x, y) == entities[i].id,
+                     theirs = id_at(picture, x, y) == entities[i].id;
                 both += ours && theirs;
                 either += ours || theirs;
             }
-        OK(either > 1000 && (double)both >= 0.995 * (double)either, "%s: %ld of %ld pixels agree", entities[i].name, both, either);
+        OK(either > 1000 && (double)both >= 0.995 * (double)either, "%s: %ld of %ld pixels agree", entities[i].name,
+           both, either);
     }
     int stray = 0, edge = 0, slipped = 0;
     double worst = 0;
@@ -113,14 +121,18 @@ static void compare(const struct frame_labels *labels, const struct image *pictu
                 edge++;
                 stray += !at_edge(&labels->instance, x, y);
             } else if (ours) {
-                double z = (double)*image_f32(&labels->depth, x, y), off = (double)image_f32(picture, x, y)[1] * FAR_M / z - 1;
+                double z = (double)*image_f32(&labels->depth, x, y),
+                       off = (double)image_f32(picture, x, y)[1] * FAR_M / z - 1;
                 /* POV-Ray's triangles are not watertight: a ray along an edge can slip in and see the other side. */
-                if (off > HALF_FLOAT) slipped++;
-                else worst = fmax(worst, -off);
+                if (off > HALF_FLOAT)
+                    slipped++;
+                else
+                    worst = fmax(worst, -off);
             }
         }
     OK(stray == 0, "each of the %d pixels that disagree is at an edge", edge);
-    OK(worst < HALF_FLOAT && slipped <= 5, "depth agrees to the half floats of POV-Ray's file, but where its rays slip between triangles (%d)", slipped);
+    OK(worst < HALF_FLOAT && slipped <= 5,
+       "depth agrees to the half floats of POV-Ray's file, but where its rays slip between triangles (%d)", slipped);
 }
 
 int main(void)
@@ -131,26 +143,36 @@ int main(void)
     solid_egg(&egg, 4, 2, 3, 24);
     solid_plate(&plate, 5, 4);
     struct pose pose = pitched();
-    static const struct { const char *name; double x, y, turn; } at[4] = {
-        { "a box", 0.5, 8, 0.7 }, { "an egg behind it", 3, 14, 2.1 }, { "a plate behind both", 4, 19, -1.2 }, { "a box over the border", -1.2, 4.2, -0.4 } };
+    static const struct {
+        const char *name;
+        double x, y, turn;
+    } at[4] = { { "a box", 0.5, 8, 0.7 },
+                { "an egg behind it", 3, 14, 2.1 },
+                { "a plate behind both", 4, 19, -1.2 },
+                { "a box over the border", -1.2, 4.2, -0.4 } };
     const struct model *models[4] = { &box.model, &egg.model, &plate.model, &box.model };
     struct entity entities[4];
     for (int i = 0; i < 4; i++) {
         double c = cos(at[i].turn), s = sin(at[i].turn);
-        entities[i] = (struct entity){ .id = (uint16_t)(3 * i + 2), .name = at[i].name, .model = models[i],
-                                       .world_from_entity = { { { { c, -s, 0 }, { s, c, 0 }, { 0, 0, 1 } } }, { at[i].x, at[i].y, 0 } } };
+        entities[i] = (struct entity){ .id = (uint16_t)(3 * i + 2),
+                                       .name = at[i].name,
+                                       .model = models[i],
+                                       .world_from_entity = { { { { c, -s, 0 }, { s, c, 0 }, { 0, 0, 1 } } },
+                                                              { at[i].x, at[i].y, 0 } } };
     }
     struct tracer *tracer = NULL;
     struct frame_labels labels = { 0 };
-    OK(tracer_create(&tracer, models, 3, &err) && trace_frame(&labels, tracer, &camera, pose, &flat, entities, 4, NULL, 0, &err),
+    OK(tracer_create(&tracer, models, 3, &err) &&
+           trace_frame(&labels, tracer, &camera, pose, &flat, entities, 4, NULL, 0, &err),
        "four entities are traced%s", err.text);
 
     char folder[] = "/tmp/trace-povray-XXXXXX";
     if (!mkdtemp(folder)) return 1;
     char *scene = string_format("%s/scene.pov", folder), *picture_path = string_format("%s/picture.exr", folder);
     struct image picture = { 0 };
-    bool ok = OK(write_scene(scene, pose, entities, 4) && render(scene, picture_path) && image_read(&picture, picture_path, &err) &&
-                 picture.width_px == WIDTH && picture.type == PIXEL_F32, "POV-Ray renders them%s", err.text);
+    bool ok = OK(write_scene(scene, pose, entities, 4) && render(scene, picture_path) &&
+                     image_read(&picture, picture_path, &err) && picture.width_px == WIDTH && picture.type == PIXEL_F32,
+                 "POV-Ray renders them%s", err.text);
     if (ok) compare(&labels, &picture, entities, 4);
     unlink(scene);
     unlink(picture_path);

@@ -3,7 +3,10 @@
 #include "tests/tap.h"
 
 static uint32_t state = 1;
-static uint32_t draw(void) { return (state = state * 1664525u + 1013904223u) >> 8; }
+static uint32_t draw(void)
+{
+    return (state = state * 1664525u + 1013904223u) >> 8;
+}
 
 /* The runs of a mask, as text: "1,2,3". */
 static const char *runs_text(const struct rle *rle)
@@ -23,8 +26,8 @@ static void check(const char *rows, int w, int h, const char *runs, const char *
     struct rle rle = { 0 }, back = { 0 };
     uint8_t mask[256], decoded[256];
     for (int i = 0; i < w * h; i++) mask[i] = rows[i] == '#';
-    OK(rle_encode(&rle, mask, (struct rect){ 0, 0, w, h }, w, h, &err) && !strcmp(runs_text(&rle), runs),
-       "%s: runs %s", what, runs);
+    OK(rle_encode(&rle, mask, (struct rect){ 0, 0, w, h }, w, h, &err) && !strcmp(runs_text(&rle), runs), "%s: runs %s",
+       what, runs);
     char *got = rle_to_string(&rle);
     OK(got && !strcmp(got, string), "%s: string %s (got %s)", what, string, got);
     free(got);
@@ -47,7 +50,8 @@ static void published(void)
     want[7 + 98] = 0;
     uint8_t quarter[50 * 50];
     memset(quarter, 1, sizeof quarter);
-    OK(rle_encode(&rle, quarter, (struct rect){ 50, 0, 100, 50 }, 100, 100, &err), "a mask that covers a part of the picture");
+    OK(rle_encode(&rle, quarter, (struct rect){ 50, 0, 100, 50 }, 100, 100, &err),
+       "a mask that covers a part of the picture");
     char *got = rle_to_string(&rle);
     OK(got && !strcmp(got, want), "the published string of a quarter of 100 x 100 (got %s)", got);
     free(got);
@@ -55,7 +59,10 @@ static void published(void)
 
     /* Strings in the wild, read and written again. The third's first and last runs are
      * larger than 16 bits, the others' differences have both signs. */
-    static const struct { const char *string; int w, h; } wild[] = {
+    static const struct {
+        const char *string;
+        int w, h;
+    } wild[] = {
         { "b04500N2", 5, 9 },
         { "724;MG2MN16", 5, 9 },
         { "Q[]17mn06M3L3M3M3M3N2M3M2O2N100O100N20000O100O1000O100000001N10001N101N101N1O2N2N3K4K6G\\Vkk0", 1000, 1000 },
@@ -64,7 +71,8 @@ static void published(void)
     for (size_t i = 0; i < sizeof wild / sizeof *wild; i++) {
         bool ok = rle_from_string(&rle, wild[i].string, wild[i].w, wild[i].h, &err);
         char *again = ok ? rle_to_string(&rle) : NULL;
-        OK(ok && again && !strcmp(again, wild[i].string), "published string %zu fills its picture and is written the same", i + 1);
+        OK(ok && again && !strcmp(again, wild[i].string),
+           "published string %zu fills its picture and is written the same", i + 1);
         if (i == 0) OK(!strcmp(runs_text(&rle), "18,4,5,4,5,2,7"), "its runs, worked out by hand");
         free(again);
         rle_release(&rle);
@@ -115,16 +123,19 @@ int main(void)
     check("######", 3, 2, "0,6", "06", "everything");
     /* column-major: . # | # # | . . */
     check(".#."
-          "##.", 3, 2, "1,3,2", "132", "an L");
+          "##.",
+          3, 2, "1,3,2", "132", "an L");
     /* runs 2,1,2,1,3 : differences from the fourth on: 1-1, 3-2 */
     check("..."
           "..."
-          "##.", 3, 3, "2,1,2,1,3", "21201", "a foot");
+          "##.",
+          3, 3, "2,1,2,1,3", "21201", "a foot");
     /* 16 has the sign bit set, so it takes two groups; 14 - 16 = -2 takes one, 30 + 48 = 'N' */
     check("####.####"
           "####.####"
           "####.###."
-          "####.###.", 9, 4, "0,16,4,14,2", "0`04NN", "a column taken out");
+          "####.###.",
+          9, 4, "0,16,4,14,2", "0`04NN", "a column taken out");
     published();
     round_trips();
     refuses("Z", 3, 2, "a mask string ends within a number at byte 2");

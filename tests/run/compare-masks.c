@@ -51,7 +51,8 @@ int main(int argc, char **argv)
         return 2;
     }
     struct rect window = m.view.window_px;
-    if (!m.view.aligned || object.width_px != window.x1 - window.x0 || object.height_px != window.y1 - window.y0) return 2;
+    if (!m.view.aligned || object.width_px != window.x1 - window.x0 || object.height_px != window.y1 - window.y0)
+        return 2;
     for (int y = 0; y < instance.height_px; y++)
         for (int x = 0; x < instance.width_px; x++) {
             bool within = x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1;
