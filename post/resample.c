@@ -31,17 +31,18 @@ static struct vec2 cell_map(const struct cell *cell, double s, double t)
 /* A view pixel that goes into a photograph pixel. */
 struct tap { size_t index; float weight; };
 
-/* The four view pixels around a position, those inside the view. Returns the new count of taps. */
+/* The four view pixels around a position. Returns the new count of taps. */
 static int add_taps(struct tap *taps, int count, struct vec2 v, float weight, int width, int height)
 {
     double left = floor(v.x - 0.5), top = floor(v.y - 0.5);
-    if (!(left >= -1 && left < width && top >= -1 && top < height)) return count;
+    if (!(v.x >= -0.5 && v.x < width + 0.5 && v.y >= -0.5 && v.y < height + 0.5)) return count;
     int x0 = (int)left, y0 = (int)top;
     float fx = (float)(v.x - 0.5 - left), fy = (float)(v.y - 0.5 - top);
     for (int j = 0; j < 2; j++)
         for (int i = 0; i < 2; i++) {
-            int x = x0 + i, y = y0 + j;
-            if (x < 0 || y < 0 || x >= width || y >= height) continue;
+            /* The outermost half pixel has no neighbour beyond it: it counts for both. */
+            int x = x0 + i < 0 ? 0 : x0 + i < width ? x0 + i : width - 1;
+            int y = y0 + j < 0 ? 0 : y0 + j < height ? y0 + j : height - 1;
             float w = weight * (i ? fx : 1 - fx) * (j ? fy : 1 - fy);
             taps[count++] = (struct tap){ ((size_t)y * (size_t)width + (size_t)x) * 4, w };
         }
