@@ -15,20 +15,44 @@ const char *pass_name(int pass)
     return pass_names[pass];
 }
 
-static const char head[] =
-    "# Written by staffage-gen. Run inside this folder: make -k -j2 [render|post]\n"
+/* After the frames' own values: FRAMES, and of each that is not empty object_N, plane_N and shadow_N. */
+static const char rules[] =
     "STAFFAGE_POVRAY ?= staffage-povray\n"
     "STAFFAGE_POST ?= staffage-post\n"
     "MAKEFLAGS += --no-builtin-rules\n"
     ".SUFFIXES:\n"
     ".PHONY: all render post\n"
     "all: post\n"
+    "\n"
     "TEMPLATES := $(wildcard templates/*.inc)\n"
+    "OUTPUTS := rgb/%.png semantic/%.png semantic_id/%.png instance/%.png depth/%.png depth/%.exr \\\n"
+    "  amodal/%.json labels/%.json\n"
+    "passes = $(if $(object_$(1)),object plane shadow)\n"
+    "\n"
+    "# pass FRAME PASS\n"
+    "define pass\n"
+    "frames/$(1)/$(2).exr: frames/$(1)/$(2).pov frames/$(1)/frame.json $(TEMPLATES)\n"
+    "\t@$$(STAFFAGE_POVRAY) frames/$(1)/$(2) $($(2)_$(1))\n"
+    "\t@echo staffage: pass $(1) $(2)\n"
+    "endef\n"
+    "\n"
+    "# frame FRAME PASSES OUTPUTS\n"
+    "define frame\n"
+    "render: $(2)\n"
+    "post: $(3)\n"
+    "$(3) &: frames/$(1)/frame.json $(2)\n"
+    "\t@$$(STAFFAGE_POST) . --frame $(1)\n"
+    "\t@echo staffage: frame $(1)\n"
+    "endef\n"
+    "\n"
+    "$(foreach f,$(FRAMES),$(foreach p,$(call passes,$(f)),$(eval $(call pass,$(f),$(p)))))\n"
+    "$(foreach f,$(FRAMES),$(eval $(call frame,$(f),$(patsubst %,frames/$(f)/%.exr,$(call passes,$(f))),"
+    "$(subst %,$(f),$(OUTPUTS)))))\n"
     "\n"
     "# One make would begin every pass before it comes back to a frame that is ready for its picture;\n"
     "# one make a frame finishes it first. They share the jobs, and end with this one.\n"
     "frame-%:\n"
-    "\t@setpriv --pdeathsig TERM $(MAKE) post-$*\n";
+    "\t@setpriv --pdeathsig TERM $(MAKE) FRAMES=$* post\n";
 
 /* POV-Ray 3.7 reads the first section without effect (its parser leaves the value unset), so
  * staffage-povray confines the process as well; a POV-Ray that is mended honours it. */
@@ -41,12 +65,6 @@ static const char povray_conf[] =
     "read* = .\n"
     "read+write* = frames\n";
 
-/* What staffage-post writes of every frame, as folder and ending. */
-static const char *const outputs[][2] = {
-    { "rgb", "png" }, { "semantic", "png" }, { "semantic_id", "png" }, { "instance", "png" },
-    { "depth", "png" }, { "depth", "exr" }, { "amodal", "json" }, { "labels", "json" },
-};
-
 static bool is_frame_name(const char *name)
 {
     return name[0] && strspn(name, "0123456789") == strlen(name);
@@ -58,40 +76,18 @@ static bool is_options(const char *options)
     return strspn(options, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-. ") == strlen(options);
 }
 
-static void write_pass(FILE *f, const struct makefile_frame *frame, int pass)
+static void write_values(FILE *f, const struct makefile_frame *frames, size_t frame_count)
 {
-    const char *options = frame->options[pass] ? frame->options[pass] : "";
-    fprintf(f,
-            "frames/%1$s/%2$s.exr: frames/%1$s/%2$s.pov frames/%1$s/frame.json $(TEMPLATES)\n"
-            "\t@$(STAFFAGE_POVRAY) frames/%1$s/%2$s %3$d %4$d%5$s%6$s\n"
-            "\t@echo staffage: pass %1$s %2$s\n",
-            frame->name, pass_names[pass], frame->width_px[pass], frame->height_px[pass], *options ? " " : "", options);
-}
-
-static void write_passes(FILE *f, const struct makefile_frame *frame)
-{
-    if (frame->empty) return;
-    for (int p = 0; p < PASS_COUNT; p++) fprintf(f, " frames/%s/%s.exr", frame->name, pass_names[p]);
-}
-
-static void write_outputs(FILE *f, const struct makefile_frame *frame)
-{
-    for (size_t i = 0; i < sizeof outputs / sizeof *outputs; i++)
-        fprintf(f, "%s%s/%s.%s", i ? " " : "", outputs[i][0], frame->name, outputs[i][1]);
-}
-
-static void write_frame(FILE *f, const struct makefile_frame *frame)
-{
-    fprintf(f, "\nrender:");
-    write_passes(f, frame);
-    fprintf(f, "\npost: post-%1$s\n.PHONY: post-%1$s\npost-%1$s: ", frame->name);
-    write_outputs(f, frame);
+    fprintf(f, "# Written by staffage-gen. Run inside this folder: make -k -j2 [render|post]\nFRAMES :=");
+    for (size_t i = 0; i < frame_count; i++) fprintf(f, " %s", frames[i].name);
     fprintf(f, "\n");
-    for (int p = 0; p < PASS_COUNT && !frame->empty; p++) write_pass(f, frame, p);
-    write_outputs(f, frame);
-    fprintf(f, " &: frames/%s/frame.json", frame->name);
-    write_passes(f, frame);
-    fprintf(f, "\n\t@$(STAFFAGE_POST) . --frame %1$s\n\t@echo staffage: frame %1$s\n", frame->name);
+    for (size_t i = 0; i < frame_count; i++)
+        for (int p = 0; p < PASS_COUNT && !frames[i].empty; p++) {
+            const char *options = frames[i].options[p] ? frames[i].options[p] : "";
+            fprintf(f, "%s_%s := %d %d%s%s\n", pass_names[p], frames[i].name, frames[i].width_px[p],
+                    frames[i].height_px[p], *options ? " " : "", options);
+        }
+    fprintf(f, "\n");
 }
 
 static bool check_frames(const struct makefile_frame *frames, size_t frame_count, struct error *err)
@@ -161,8 +157,8 @@ bool makefile_write(const char *out_folder, const char *templates_folder,
     size_t size = 0;
     FILE *f = open_memstream(&text, &size);
     if (!f) return error_set(err, ERR_MEMORY, "no memory for the makefile");
-    fputs(head, f);
-    for (size_t i = 0; i < frame_count; i++) write_frame(f, &frames[i]);
+    write_values(f, frames, frame_count);
+    fputs(rules, f);
     bool ok = !ferror(f);
     if (fclose(f) != 0) ok = false;
     if (!ok) error_set(err, ERR_MEMORY, "no memory for the makefile");

@@ -43,11 +43,11 @@ int main(void)
 
     OK(makefile_write(out, templates, frames, 2, &err), "writes: %s", err.text);
     char *makefile = written("Makefile");
-    OK(makefile && strstr(makefile, "@$(STAFFAGE_POVRAY) frames/000007/object 320 200 +AM2 +A0.05 +R2 -J\n"),
+    OK(makefile && strstr(makefile, "\nobject_000007 := 320 200 +AM2 +A0.05 +R2 -J\n"),
        "a pass has its size and options");
-    OK(makefile && strstr(makefile, "@$(STAFFAGE_POVRAY) frames/000007/plane 320 200\n"), "a pass without options");
-    OK(makefile && !strstr(makefile, "frames/000008/object"), "an empty frame has no passes");
-    OK(makefile && strstr(makefile, "labels/000008.json &: frames/000008/frame.json\n"), "an empty frame has a picture");
+    OK(makefile && strstr(makefile, "\nplane_000007 := 320 200\n"), "a pass without options");
+    OK(makefile && !strstr(makefile, "object_000008"), "an empty frame has no passes");
+    OK(makefile && strstr(makefile, "\nFRAMES := 000007 000008\n"), "every frame is there");
     OK(makefile && !strstr(makefile, out), "holds relative paths only");
     free(makefile);
     char *template = written("templates/camera.inc");
