@@ -18,6 +18,7 @@ gen_libgen_a_SOURCES = \
   %D%/model_assimp.c \
   %D%/model_gltf.c \
   %D%/model_import.c %D%/model_import.h \
+  %D%/model_ply.c \
   %D%/model_texture.c %D%/model_texture.h \
   %D%/nearest.c %D%/nearest.h \
   %D%/paint.c %D%/paint.h \

@@ -19,7 +19,7 @@
 
 static const struct { const char *extension; bool (*import)(struct import *, const char *, struct error *); bool knows_axes; } formats[] = {
     { ".gltf", import_gltf, true },   { ".glb", import_gltf, true },    { ".obj", import_assimp, false },
-    { ".ply", import_assimp, false }, { ".dae", import_assimp, false }, { ".fbx", import_assimp, false },
+    { ".ply", import_ply, false }, { ".dae", import_assimp, false }, { ".fbx", import_assimp, false },
 };
 
 static struct vec3 axis_vector(enum axis axis)

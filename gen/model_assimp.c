@@ -1,4 +1,4 @@
-/* OBJ, PLY, COLLADA and FBX by assimp's C API. */
+/* OBJ, COLLADA and FBX by assimp's C API. */
 #include "gen/model_import.h"
 #include "lib/file.h"
 #include "lib/image.h"
@@ -22,21 +22,6 @@ static bool has_extension(const char *path, const char *extension)
 }
 
 /* --- what assimp passes over in silence --- */
-
-/* A PLY header may tell of more vertices than the file can hold. */
-static bool check_ply(const char *path, const char *data, size_t size, struct error *err)
-{
-    const char *end = strstr(data, "end_header");
-    if (strncmp(data, "ply", 3) != 0 || !end) return error_at(err, ERR_INPUT, path, 0, 0, "is no PLY file: it has no header");
-    size_t header = (size_t)(end - data) + strcspn(end, "\n") + 1, body = size > header ? size - header : 0;
-    for (const char *at = data; (at = strstr(at, "\nelement ")) && at < end; at++) {
-        char name[32];
-        unsigned long long count;
-        if (sscanf(at, "\nelement %31s %llu", name, &count) != 2) return error_at(err, ERR_INPUT, path, 0, 0, "the PLY header has an element without a number");
-        if (count > body) return error_at(err, ERR_INPUT, path, 0, 0, "the PLY header tells of %llu elements \"%s\", but only %zu bytes follow", count, name, body);
-    }
-    return true;
-}
 
 /* Material files that an OBJ file names and that are not beside it. */
 static bool check_obj(struct import *import, const char *path, const char *data, struct error *err)
@@ -73,7 +58,6 @@ static bool check(struct import *import, const char *path, struct error *err)
     size_t size;
     if (!file_read(&data, &size, path, err)) return false;
     bool ok = size > 0 || error_at(err, ERR_INPUT, path, 0, 0, "is empty");
-    if (ok && has_extension(path, ".ply")) ok = check_ply(path, data, size, err);
     if (ok && has_extension(path, ".obj")) ok = check_obj(import, path, data, err);
     if (ok && has_extension(path, ".dae")) import->unit_m = collada_unit(data);
     free(data);
@@ -151,18 +135,6 @@ static double determinant(const struct aiMatrix4x4 *m)
            (double)m->a3 * (double)(m->b1 * m->c2 - m->b2 * m->c1);
 }
 
-/* PLY has colours at its vertices and no materials: the mean is the material's. */
-static void take_mean_color(struct import_material *to, const struct aiMesh *from)
-{
-    double sum[3] = { 0, 0, 0 };
-    if (!from->mColors[0] || to->base != NO_IMAGE) return;
-    for (unsigned i = 0; i < from->mNumVertices; i++) {
-        const float c[3] = { from->mColors[0][i].r, from->mColors[0][i].g, from->mColors[0][i].b };
-        for (int k = 0; k < 3; k++) sum[k] += (double)linear_from_srgb(c[k] > 0 ? c[k] < 1 ? c[k] : 1 : 0);
-    }
-    for (int k = 0; k < 3; k++) to->material.base_color[k] = sum[k] / from->mNumVertices;
-}
-
 static bool add_mesh(struct import *import, const struct aiMesh *from, const struct aiMatrix4x4 *world, struct error *err)
 {
     if (!(from->mPrimitiveTypes & aiPrimitiveType_TRIANGLE)) return true;
@@ -196,7 +168,6 @@ static bool add_mesh(struct import *import, const struct aiMesh *from, const str
     }
     mesh.triangles = kept;
     mesh.material = from->mMaterialIndex;
-    take_mean_color(&import->materials[mesh.material], from);
     bool ok = import_add_mesh(import, &mesh, err);
     mesh_release(&mesh);
     return ok;
@@ -226,22 +197,32 @@ static double fbx_unit(const struct aiScene *scene)
     return 0;
 }
 
-bool import_assimp(struct import *import, const char *path, struct error *err)
+/* One call: aiApplyPostProcessing on its own frees a scene twice when it fails. NULL on failure. */
+static const struct aiScene *read_scene(const char *path, struct error *err)
 {
-    if (!check(import, path, err)) return false;
     struct aiPropertyStore *settings = aiCreatePropertyStore();
-    if (!settings) return error_set(err, ERR_MEMORY, "no memory for a model");
+    if (!settings) {
+        error_set(err, ERR_MEMORY, "no memory for a model");
+        return NULL;
+    }
     aiSetImportPropertyInteger(settings, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
     aiSetImportPropertyInteger(settings, AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, 0);
     const struct aiScene *scene = aiImportFileExWithProperties(
         path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType | aiProcess_ValidateDataStructure, NULL, settings);
     aiReleasePropertyStore(settings);
-    if (!scene || !scene->mRootNode) {
-        const char *text = aiGetErrorString();
-        if (strstr(text, "contains no faces")) error_at(err, ERR_INPUT, path, 0, 0, "has no triangles");
-        else error_at(err, ERR_INPUT, path, 0, 0, "is no model that can be read: %s", text);
-        goto out;
-    }
+    if (scene && scene->mRootNode) return scene;
+    const char *text = aiGetErrorString();
+    if (strstr(text, "contains no faces")) error_at(err, ERR_INPUT, path, 0, 0, "has no triangles");
+    else error_at(err, ERR_INPUT, path, 0, 0, "is no model that can be read: %s", text);
+    aiReleaseImport(scene);
+    return NULL;
+}
+
+bool import_assimp(struct import *import, const char *path, struct error *err)
+{
+    if (!check(import, path, err)) return false;
+    const struct aiScene *scene = read_scene(path, err);
+    if (!scene) return false;
     for (unsigned i = 0; i < scene->mNumMaterials; i++)
         if (!add_material(import, scene->mMaterials[i], err)) goto out;
     if (!add_embedded(import, scene, err)) goto out;

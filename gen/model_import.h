@@ -38,6 +38,7 @@ struct import {
  * Err: ERR_INPUT at path; ERR_MEMORY */
 bool import_gltf(struct import *import, const char *path, struct error *err);
 bool import_assimp(struct import *import, const char *path, struct error *err);
+bool import_ply(struct import *import, const char *path, struct error *err);
 void import_release(struct import *import);
 
 /* Append, zeroed or handed over. NULL or false: ERR_MEMORY. */
