@@ -234,7 +234,7 @@ int main(void)
         "000042", "/a/street.jpg", &camera, camera_pose, true, { 0, 0.6, 0.8 }, entities, 3
     };
 
-    strcpy(folder, "/tmp/label-XXXXXX");
+    strcpy(folder, "label.XXXXXX");
     if (!OK(ok && mkdtemp(folder) && mkdir(in_folder("amodal"), 0777) == 0 &&
                 file_write(in_folder("amodal/00005.exr"), "old", 3, &err) &&
                 labels_write(folder, &labels, &context, &err),

@@ -166,7 +166,7 @@ int main(void)
            trace_frame(&labels, tracer, &camera, pose, &flat, entities, 4, NULL, 0, &err),
        "four entities are traced%s", err.text);
 
-    char folder[] = "/tmp/trace-povray-XXXXXX";
+    char folder[] = "trace-povray.XXXXXX";
     if (!mkdtemp(folder)) return 1;
     char *scene = string_format("%s/scene.pov", folder), *picture_path = string_format("%s/picture.exr", folder);
     struct image picture = { 0 };
