@@ -33,6 +33,7 @@ struct generator {
     uint64_t video_hash;            /* names the video as it is now: another one's pictures are not taken for its own */
     struct entity *entities;        /* (scene->entity_count) */
     size_t *model_index;
+    bool *included;                 /* (scene->entity_count) the include file of its model is written */
     struct receiver *receivers;     /* (scene->entity_count) */
     struct occluder *occluders;     /* (scene->occluder_count) polygons at the size of the result; owned */
     struct tracer *tracer;
@@ -257,9 +258,10 @@ bool generator_create(struct generator **generator, const struct scene *scene, c
     g->models = calloc(scene->model_count + 1, sizeof *g->models);
     g->entities = calloc(scene->entity_count + 1, sizeof *g->entities);
     g->model_index = calloc(scene->entity_count + 1, sizeof *g->model_index);
+    g->included = calloc(scene->entity_count + 1, sizeof *g->included);
     g->receivers = calloc(scene->entity_count + 1, sizeof *g->receivers);
     g->occluders = calloc(scene->occluder_count + 1, sizeof *g->occluders);
-    if (!g->models || !g->entities || !g->model_index || !g->receivers || !g->occluders) {
+    if (!g->models || !g->entities || !g->model_index || !g->included || !g->receivers || !g->occluders) {
         error_set(err, ERR_MEMORY, "no memory for the scene");
         goto out;
     }
@@ -290,6 +292,7 @@ void generator_destroy(struct generator *g)
     free(g->models);
     free(g->entities);
     free(g->model_index);
+    free(g->included);
     free(g->receivers);
     free(g->occluders);
     light_release(&g->light);
@@ -493,7 +496,7 @@ static bool write_manifest(const struct generator *g, const char *path, const st
     return ok;
 }
 
-static bool write_passes(const struct generator *g, const char *folder, const bool *matters, const struct view *view,
+static bool write_passes(struct generator *g, const char *folder, const bool *matters, const struct view *view,
                          struct error *err)
 {
     const struct scene *s = g->scene;
@@ -506,7 +509,9 @@ static bool write_passes(const struct generator *g, const char *folder, const bo
         entities[n] = g->entities[i];
         model_index[n] = g->model_index[i];
         receivers[n++] = g->receivers[i];
-        ok = model_include_write(g->out_folder, model_index[n - 1], &entities[n - 1], err);
+        /* Written once a run, whatever an earlier one left: entities do not change between frames. */
+        if (!g->included[i]) ok = model_include_write(g->out_folder, g->model_index[i], &g->entities[i], err);
+        g->included[i] = true;
     }
     struct passes passes = { s, g->sky_map, &g->light, *view, s->world_from_camera, entities, model_index, n, receivers, n };
     ok = ok && passes_write(folder, &passes, err);
@@ -516,7 +521,7 @@ static bool write_passes(const struct generator *g, const char *folder, const bo
     return ok;
 }
 
-static bool make_frame(struct frame_result *result, const struct generator *g, const char *folder,
+static bool make_frame(struct frame_result *result, struct generator *g, const char *folder,
                        const char *photograph, const char *key, struct error *err)
 {
     const struct scene *s = g->scene;

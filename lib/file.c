@@ -88,9 +88,15 @@ bool file_commit(const char *temporary, const char *path, struct error *err)
     return error_at(err, ERR_IO, path, 0, 0, "cannot be written: %s", strerror(cause));
 }
 
+char *file_temporary(const char *path)
+{
+    const char *name = path_name(path), *dot = strrchr(name, '.');
+    return string_format("%.*s.%s.%ld.tmp%s", (int)(name - path), path, name, (long)getpid(), dot ? dot : "");
+}
+
 bool file_write(const char *path, const void *data, size_t size, struct error *err)
 {
-    char *temporary = string_format("%s.%ld.tmp", path, (long)getpid());
+    char *temporary = file_temporary(path);
     if (!temporary) return error_set(err, ERR_MEMORY, "no memory for a path");
     bool ok = false;
     FILE *f = fopen(temporary, "wb");

@@ -31,6 +31,9 @@ bool file_write_if_changed(const char *path, const void *data, size_t size, stru
 bool file_copy(const char *to, const char *from, struct error *err);
 /* Make a folder and those above it. One that is there is fine. */
 bool folder_make(const char *path, struct error *err);
+/* A name to write beside `path` before file_commit: hidden, of this process, with the same
+ * extension, so that no pattern finds an unfinished file. The caller frees. */
+char *file_temporary(const char *path);
 /* Flush and rename a finished temporary file into place; removes it on failure. */
 bool file_commit(const char *temporary, const char *path, struct error *err);
 

@@ -47,20 +47,20 @@ bool image_from_mat(struct image *image, const cv::Mat &mat, const char *path, s
 /* libjpeg fills a truncated JPEG with grey and says nothing: its end marker tells. */
 bool ends_early(const char *path)
 {
-    FILE *f = fopen(path, "rb");
-    if (!f) return false;
-    unsigned char head[2] = { 0, 0 }, tail[64];
-    bool jpeg = fread(head, 1, 2, f) == 2 && head[0] == 0xff && head[1] == 0xd8;
-    bool found = false;
-    if (jpeg) {
-        fseek(f, 0, SEEK_END);
-        long size = ftell(f), from = size > (long)sizeof tail ? size - (long)sizeof tail : 0;
-        fseek(f, from, SEEK_SET);
-        size_t n = fread(tail, 1, sizeof tail, f);
-        for (size_t i = 0; i + 1 < n; i++) found |= tail[i] == 0xff && tail[i + 1] == 0xd9;
-    }
-    fclose(f);
-    return jpeg && !found;
+    char *data;
+    size_t size;
+    struct error ignored = {};
+    if (!file_read(&data, &size, path, &ignored)) return false;
+    const unsigned char *bytes = (const unsigned char *)data;
+    bool jpeg = size > 3 && bytes[0] == 0xff && bytes[1] == 0xd8, ends = false;
+    /* Segments may hold whole pictures, thumbnails, and more may follow the end: the marker that counts
+     * is the first one after the start of the scan, in which no other 0xff 0xd9 can stand. */
+    size_t at = 2;
+    while (jpeg && at + 4 <= size && bytes[at] == 0xff && bytes[at + 1] != 0xda)
+        at += bytes[at + 1] == 0xff ? 1 : 2 + (size_t)(bytes[at + 2] << 8 | bytes[at + 3]);
+    for (; jpeg && !ends && at + 1 < size; at++) ends = bytes[at] == 0xff && bytes[at + 1] == 0xd9;
+    free(data);
+    return jpeg && !ends;
 }
 
 const unsigned char png_signature[] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
@@ -150,16 +150,17 @@ bool image_write(const char *path, const struct image *image, struct error *err)
         else if (image->channels == 4) cv::cvtColor(in, bgr, cv::COLOR_RGBA2BGRA);
         else bgr = in;
         const char *dot = strrchr(path, '.');
-        std::string temporary = std::string(path) + "." + std::to_string((long)getpid()) + ".tmp" + (dot ? dot : "");
+        std::unique_ptr<char, decltype(&free)> temporary(file_temporary(path), free);
+        if (!temporary) return error_set(err, ERR_MEMORY, "no memory for a path");
         std::vector<int> options;
         if (image->type == PIXEL_F32) options = { cv::IMWRITE_EXR_TYPE, cv::IMWRITE_EXR_TYPE_FLOAT };
         else if (dot && !strcmp(dot, ".jpg")) options = { cv::IMWRITE_JPEG_QUALITY, 95 };
         else options = { cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_DEFAULT }; /* naming no level keeps OpenCV's one cheap filter */
-        if (!cv::imwrite(temporary, bgr, options)) {
-            unlink(temporary.c_str());
+        if (!cv::imwrite(temporary.get(), bgr, options)) {
+            unlink(temporary.get());
             return error_at(err, ERR_IO, path, 0, 0, "cannot be written");
         }
-        return file_commit(temporary.c_str(), path, err);
+        return file_commit(temporary.get(), path, err);
     });
 }
 
