@@ -146,11 +146,12 @@ static double luminance_from_l(double l)
  * is glass or a tyre, nor many times as light. */
 static double body_share(const float rgb[3], struct lab body, double body_luminance)
 {
+    double ratio = luminance(rgb) / body_luminance, light = ramp(0.12, 0.3, ratio) * ramp(8, 4, ratio);
+    if (light == 0) return 0;
     struct lab c = lab_from_linear(rgb);
-    double ratio = luminance(rgb) / body_luminance;
     double shade = c.l > 1 && body.l > 1 ? fmin(c.l / body.l, 1) : 1; /* chroma fades with light */
     double distance = hypot(c.a - body.a * shade, c.b - body.b * shade);
-    return ramp(24, 12, distance) * ramp(0.12, 0.3, ratio) * ramp(8, 4, ratio);
+    return light * ramp(24, 12, distance);
 }
 
 struct level { double luminance, area; };
