@@ -182,8 +182,8 @@ static bool place_entity(struct vec3 *at, const struct generator *g, const struc
     }
     case PLACE_PIXEL:
     default:
-        return ground_from_pixel(at, &s->ground, &g->camera, s->world_from_camera,
-                                 scaled_px(g, (struct vec2){ e->at[0], e->at[1] }), err) || fail_at(g, e->at_source, err);
+        return ground_from_pixel(at, &s->ground, &s->camera, s->world_from_camera,
+                                 (struct vec2){ e->at[0], e->at[1] }, err) || fail_at(g, e->at_source, err);
     }
 }
 
@@ -223,8 +223,8 @@ static bool place_occluders(struct generator *g, struct error *err)
         if (!polygon) return error_set(err, ERR_MEMORY, "no memory for an occluder");
         for (size_t k = 0; k < o->polygon_count; k++) polygon[k] = scaled_px(g, o->polygon_px[k]);
         g->occluders[i] = (struct occluder){ .name = o->name, .polygon_px = polygon, .polygon_count = o->polygon_count };
-        if (!ground_from_pixel(&g->occluders[i].foot_m, &s->ground, &g->camera, s->world_from_camera,
-                               scaled_px(g, o->ground_px), err)) {
+        if (!ground_from_pixel(&g->occluders[i].foot_m, &s->ground, &s->camera, s->world_from_camera, o->ground_px,
+                               err)) {
             fail_at(g, o->source, err);
             return error_prefix(err, "occluder \"%s\": ", o->name);
         }

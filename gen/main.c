@@ -104,7 +104,7 @@ static bool generate(const struct options *o, struct error *err)
             .name = results[i].name,
             .width_px = { whole.width_px, reduced.width_px, reduced.width_px },
             .height_px = { whole.height_px, reduced.height_px, reduced.height_px },
-            .options = { settings.object_antialias, "-A", settings.shadow_antialias },
+            .options = { settings.object_antialias, settings.receiver_antialias, settings.receiver_antialias },
         };
     }
     ok = generator_write_run(generator, results, n, err) &&

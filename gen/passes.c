@@ -23,7 +23,7 @@ struct pass_settings pass_settings(enum quality quality, enum sky_kind sky)
         return (struct pass_settings){ 48, !clear, 200, 0.4, 1, fine, clear ? fine : none };
     case QUALITY_STANDARD:
     default:
-        return (struct pass_settings){ clear ? 16 : 24, !clear, 50, 0.8, clear ? 1 : 2, edges, clear ? edges : none };
+        return (struct pass_settings){ clear ? 16 : 24, !clear, 40, 0.8, clear ? 1 : 2, edges, clear ? edges : none };
     }
 }
 

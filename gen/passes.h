@@ -22,7 +22,9 @@ struct pass_settings {
     int radiosity_count;       /* in the object pass */
     double radiosity_error;
     int receiver_reduction;    /* of the plane and shadow passes against the object pass */
-    const char *object_antialias, *shadow_antialias; /* POV-Ray options */
+    /* POV-Ray options. The plane and shadow passes share theirs: along the receivers' edges their ratio
+     * is 1 only where both are sampled alike. */
+    const char *object_antialias, *receiver_antialias;
 };
 struct pass_settings pass_settings(enum quality quality, enum sky_kind sky);
 

@@ -40,21 +40,26 @@ static struct model box_model(struct material *material, struct mesh *mesh)
                            .min_m = { -1, -0.5, 0 }, .max_m = { 1, 0.5, 1 } };
 }
 
-static bool povray(const char *out, const char *pass, int width, int height)
+static bool povray(const char *out, const char *pass, int width, int height, const char *antialias)
 {
     char *templates = string_format("+L%s/templates", getenv("top_srcdir"));
     char *in = string_format("+Iframes/%s.pov", pass), *to = string_format("+Oframes/%s.exr", pass);
     char *w = string_format("+W%d", width), *h = string_format("+H%d", height);
+    char *words = string_format("%s", antialias), *option[4] = { 0 };
+    int n = 0;
+    for (char *word = strtok(words, " "); word && n < 4; word = strtok(NULL, " ")) option[n++] = word;
     pid_t child = fork();
     if (child == 0) {
         if (chdir(out) != 0) _exit(126);
         freopen("/dev/null", "w", stdout);
         freopen("povray.log", "w", stderr);
-        execlp("povray", "povray", in, to, w, h, templates, "+L.", "+FE", "-A", "-J", "-D", "+WT1", "+UA", (char *)NULL);
+        execlp("povray", "povray", in, to, w, h, templates, "+L.", "+FE", "-D", "+WT1", "+UA", option[0], option[1],
+               option[2], option[3], (char *)NULL);
         _exit(127);
     }
     int status = 1;
     waitpid(child, &status, 0);
+    free(words);
     free(templates);
     free(in);
     free(to);
@@ -72,8 +77,10 @@ static bool render(struct image pass[3], const char *out, const struct passes *p
               passes_write(folder, p, &err);
     for (int i = 0; ok && i < 3; i++) {
         char *path = string_format("%s/%s.exr", folder, names[i]);
-        struct view view = view_reduced(&p->view, i == 0 ? 1 : pass_settings(p->scene->quality, p->scene->sky).receiver_reduction);
-        ok = povray(out, names[i], view.width_px, view.height_px) && image_read(&pass[i], path, &err);
+        /* The object pass by one ray a pixel, as labels are traced; the others as they are. */
+        struct pass_settings settings = pass_settings(p->scene->quality, p->scene->sky);
+        struct view view = view_reduced(&p->view, i == 0 ? 1 : settings.receiver_reduction);
+        ok = povray(out, names[i], view.width_px, view.height_px, i == 0 ? "-A -J" : settings.receiver_antialias) && image_read(&pass[i], path, &err);
         free(path);
     }
     if (!ok) printf("# %s %s; %s/povray.log\n", err.file, err.text, out);
@@ -137,12 +144,17 @@ int main(void)
 
         /* The ground's radiance, everywhere in the plane pass. */
         double low[3] = { 9, 9, 9 }, high[3] = { 0 };
-        int lit = 0, shaded_wrong = 0;
+        int lit = 0, shaded_wrong = 0, edges = 0, edges_wrong = 0;
         double deepest = 1, open = 0;
         for (int y = 0; y < pass[1].height_px; y++)
             for (int x = 0; x < pass[1].width_px; x++) {
                 const float *plane = image_f32(&pass[1], x, y), *shadow = image_f32(&pass[2], x, y);
-                if (plane[3] < 0.5f) continue;
+                if (plane[3] > 0 && plane[3] < 1) {
+                    edges++;
+                    edges_wrong += fabs((double)(shadow[1] / plane[1]) - 1) > 0.08 || fabsf(shadow[3] - plane[3]) > 0.01f;
+                }
+                edges_wrong += plane[3] <= 0 && shadow[3] > 0;
+                if (plane[3] < 1) continue;
                 lit++;
                 for (int c = 0; c < 3; c++) {
                     low[c] = fmin(low[c], (double)plane[c]);
@@ -153,6 +165,7 @@ int main(void)
                 open = fmax(open, ratio);
                 shaded_wrong += ratio > 1.001;
             }
+        OK(edges_wrong == 0, "%s: the receivers' edges draw no line (%d px on them)", name, edges);
         OK(lit > 3000, "%s: receivers lie around the box (%d px)", name, lit);
         for (int c = 0; c < 3; c++) {
             double want = scene.ground_albedo[c] * light.irradiance[c];
