@@ -255,6 +255,13 @@ bool generator_create(struct generator **generator, const struct scene *scene, c
     g->input_hash = hash_bytes(g->input_hash, &scene->hash, sizeof scene->hash);
     g->input_hash = hash_bytes(g->input_hash, &scene->quality, sizeof scene->quality);
     g->input_hash = hash_bytes(g->input_hash, &scene->seed, sizeof scene->seed);
+    /* What a quality means may change from version to version. */
+    struct pass_settings settings = pass_settings(scene->quality, scene->sky);
+    g->input_hash = hash_bytes(g->input_hash, &settings.sky_lights, sizeof settings.sky_lights);
+    g->input_hash = hash_bytes(g->input_hash, &settings.radiosity_count, sizeof settings.radiosity_count);
+    g->input_hash = hash_bytes(g->input_hash, &settings.receiver_reduction, sizeof settings.receiver_reduction);
+    g->input_hash = hash_bytes(g->input_hash, settings.object_antialias, strlen(settings.object_antialias));
+    g->input_hash = hash_bytes(g->input_hash, settings.receiver_antialias, strlen(settings.receiver_antialias));
     g->models = calloc(scene->model_count + 1, sizeof *g->models);
     g->entities = calloc(scene->entity_count + 1, sizeof *g->entities);
     g->model_index = calloc(scene->entity_count + 1, sizeof *g->model_index);
