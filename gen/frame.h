@@ -2,7 +2,7 @@
 #ifndef STAFFAGE_GEN_FRAME_H
 #define STAFFAGE_GEN_FRAME_H
 
-#include "gen/scene.h"
+#include "gen/scene/scene.h"
 #include "lib/error.h"
 #include "lib/view.h"
 

@@ -1,45 +1,44 @@
 # staffage-gen: from the scene file to POV-Ray scenes and label layers.
 noinst_LIBRARIES += gen/libgen.a
-gen_libgen_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(GEOGRAPHIC_CFLAGS) $(TINYGLTF_CFLAGS) $(ASSIMP_CFLAGS) \
+gen_libgen_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(TINYGLTF_CFLAGS) $(ASSIMP_CFLAGS) \
   $(ERFA_CFLAGS) $(YAML_CFLAGS) $(JANSSON_CFLAGS)
 gen_libgen_a_SOURCES = \
-  %D%/camera_sdl.c %D%/camera_sdl.h \
-  %D%/entity.c %D%/entity.h \
-  %D%/footprint.c %D%/footprint.h \
-  %D%/gltf.cpp %D%/gltf.h \
   %D%/frame.c %D%/frame.h \
-  %D%/ground.c %D%/ground.h \
-  %D%/label.c %D%/label.h \
-  %D%/light.c %D%/light.h \
-  %D%/makefile.c %D%/makefile.h \
-  %D%/material.c %D%/material.h \
-  %D%/mesh.c %D%/mesh.h \
-  %D%/model.c %D%/model.h \
-  %D%/model_assimp.c \
-  %D%/model_gltf.c \
-  %D%/model_import.c %D%/model_import.h \
-  %D%/model_ply.c \
-  %D%/model_texture.c %D%/model_texture.h \
-  %D%/nearest.c %D%/nearest.h \
-  %D%/paint.c %D%/paint.h \
-  %D%/passes.c %D%/passes.h \
-  %D%/place.cpp %D%/place.h \
-  %D%/polygon.c %D%/polygon.h \
-  %D%/rays.c %D%/rays.h \
-  %D%/receiver.c %D%/receiver.h \
-  %D%/scene.c %D%/scene.h \
-  %D%/scene_keys.c %D%/scene_keys.h \
-  %D%/scene_pose.c %D%/scene_pose.h \
-  %D%/schema.c %D%/schema.h \
-  %D%/schema_words.c %D%/schema_words.h \
-  %D%/screen.c %D%/screen.h \
-  %D%/sdl.c %D%/sdl.h \
-  %D%/shape.c %D%/shape.h \
-  %D%/sun.c %D%/sun.h \
-  %D%/texture.c %D%/texture.h \
-  %D%/trace.c %D%/trace.h \
-  %D%/yaml.c %D%/yaml.h
-GEN_LIBS = gen/libgen.a $(LIB_LIBS) $(GEOGRAPHIC_LIBS) $(TINYGLTF_LIBS) $(ASSIMP_LIBS) $(EMBREE_LIBS) $(ERFA_LIBS) $(YAML_LIBS)
+  %D%/light/light.c %D%/light/light.h \
+  %D%/light/sun.c %D%/light/sun.h \
+  %D%/model/gltf.cpp %D%/model/gltf.h \
+  %D%/model/material.c %D%/model/material.h \
+  %D%/model/mesh.c %D%/model/mesh.h \
+  %D%/model/model.c %D%/model/model.h \
+  %D%/model/model_assimp.c \
+  %D%/model/model_gltf.c \
+  %D%/model/model_import.c %D%/model/model_import.h \
+  %D%/model/model_ply.c \
+  %D%/model/model_texture.c %D%/model/model_texture.h \
+  %D%/model/paint.c %D%/model/paint.h \
+  %D%/model/texture.c %D%/model/texture.h \
+  %D%/render/camera_sdl.c %D%/render/camera_sdl.h \
+  %D%/render/makefile.c %D%/render/makefile.h \
+  %D%/render/passes.c %D%/render/passes.h \
+  %D%/render/sdl.c %D%/render/sdl.h \
+  %D%/scene/nearest.c %D%/scene/nearest.h \
+  %D%/scene/scene.c %D%/scene/scene.h \
+  %D%/scene/scene_keys.c %D%/scene/scene_keys.h \
+  %D%/scene/scene_pose.c %D%/scene/scene_pose.h \
+  %D%/scene/schema.c %D%/scene/schema.h \
+  %D%/scene/schema_words.c %D%/scene/schema_words.h \
+  %D%/scene/yaml.c %D%/scene/yaml.h \
+  %D%/trace/footprint.c %D%/trace/footprint.h \
+  %D%/trace/label.c %D%/trace/label.h \
+  %D%/trace/polygon.c %D%/trace/polygon.h \
+  %D%/trace/rays.c %D%/trace/rays.h \
+  %D%/trace/screen.c %D%/trace/screen.h \
+  %D%/trace/shape.c %D%/trace/shape.h \
+  %D%/trace/trace.c %D%/trace/trace.h \
+  %D%/world/entity.c %D%/world/entity.h \
+  %D%/world/ground.c %D%/world/ground.h \
+  %D%/world/receiver.c %D%/world/receiver.h
+GEN_LIBS = gen/libgen.a $(LIB_LIBS) $(TINYGLTF_LIBS) $(ASSIMP_LIBS) $(EMBREE_LIBS) $(ERFA_LIBS) $(YAML_LIBS)
 
 
 bin_PROGRAMS += staffage-gen

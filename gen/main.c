@@ -1,8 +1,8 @@
 /* staffage-gen: options in, one call, an exit code out. */
 #include "gen/frame.h"
-#include "gen/makefile.h"
-#include "gen/passes.h"
-#include "gen/scene.h"
+#include "gen/render/makefile.h"
+#include "gen/render/passes.h"
+#include "gen/scene/scene.h"
 #include "lib/error.h"
 #include "lib/file.h"
 

@@ -47,10 +47,10 @@ tests_gen_entity_test_SOURCES = %D%/gen/entity.c %D%/tap.h
 nodist_EXTRA_tests_gen_entity_test_SOURCES = dummy.cxx
 tests_gen_entity_test_LDADD = $(GEN_LIBS)
 
-check_PROGRAMS += tests/gen/place.test
-tests_gen_place_test_SOURCES = %D%/gen/place.c %D%/tap.h
-nodist_EXTRA_tests_gen_place_test_SOURCES = dummy.cxx
-tests_gen_place_test_LDADD = $(GEN_LIBS)
+check_PROGRAMS += tests/lib/place.test
+tests_lib_place_test_SOURCES = %D%/lib/place.c %D%/tap.h
+nodist_EXTRA_tests_lib_place_test_SOURCES = dummy.cxx
+tests_lib_place_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/sun.test
 tests_gen_sun_test_SOURCES = %D%/gen/sun.c %D%/tap.h

@@ -1,4 +1,4 @@
-#include "gen/entity.h"
+#include "gen/world/entity.h"
 
 #include "tests/tap.h"
 

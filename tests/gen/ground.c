@@ -1,4 +1,4 @@
-#include "gen/ground.h"
+#include "gen/world/ground.h"
 
 #include "tests/tap.h"
 

@@ -1,4 +1,4 @@
-#include "gen/label.h"
+#include "gen/trace/label.h"
 #include "lib/file.h"
 #include "lib/rle.h"
 

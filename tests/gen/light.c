@@ -1,4 +1,4 @@
-#include "gen/light.h"
+#include "gen/light/light.h"
 
 #include "tests/tap.h"
 

@@ -1,5 +1,5 @@
 /* The makefile of an output folder: what it takes and refuses. */
-#include "gen/makefile.h"
+#include "gen/render/makefile.h"
 #include "lib/file.h"
 #include "tests/tap.h"
 

@@ -1,4 +1,4 @@
-#include "gen/material.h"
+#include "gen/model/material.h"
 
 #include "lib/file.h"
 #include "tests/tap.h"

@@ -1,6 +1,6 @@
-#include "gen/model.h"
+#include "gen/model/model.h"
 
-#include "gen/model_texture.h"
+#include "gen/model/model_texture.h"
 #include "lib/file.h"
 #include "tests/tap.h"
 

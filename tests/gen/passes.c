@@ -1,7 +1,7 @@
 /* The passes as POV-Ray renders them, against what light.c, trace.c and camera.c say. */
-#include "gen/passes.h"
+#include "gen/render/passes.h"
 
-#include "gen/trace.h"
+#include "gen/trace/trace.h"
 #include "lib/file.h"
 #include "lib/image.h"
 #include "tests/tap.h"

@@ -1,4 +1,4 @@
-#include "gen/polygon.h"
+#include "gen/trace/polygon.h"
 
 #include "tests/tap.h"
 

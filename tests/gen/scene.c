@@ -1,4 +1,4 @@
-#include "gen/scene.h"
+#include "gen/scene/scene.h"
 
 #include "lib/file.h"
 #include "tests/tap.h"

@@ -1,6 +1,6 @@
 /* The models that we make, and the scenes that come with the program. */
-#include "gen/model.h"
-#include "gen/scene.h"
+#include "gen/model/model.h"
+#include "gen/scene/scene.h"
 #include "lib/file.h"
 
 #include "tests/tap.h"

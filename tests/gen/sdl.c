@@ -1,4 +1,4 @@
-#include "gen/sdl.h"
+#include "gen/render/sdl.h"
 
 #include "tests/tap.h"
 

@@ -2,7 +2,7 @@
 #ifndef STAFFAGE_TESTS_GEN_SOLID_H
 #define STAFFAGE_TESTS_GEN_SOLID_H
 
-#include "gen/model.h"
+#include "gen/model/model.h"
 
 #include <math.h>
 #include <stdlib.h>

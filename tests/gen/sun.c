@@ -1,4 +1,4 @@
-#include "gen/sun.h"
+#include "gen/light/sun.h"
 
 #include "tests/tap.h"
 

@@ -1,4 +1,4 @@
-#include "gen/texture.h"
+#include "gen/model/texture.h"
 
 #include "lib/file.h"
 #include "tests/tap.h"

@@ -1,4 +1,4 @@
-#include "gen/trace.h"
+#include "gen/trace/trace.h"
 
 #include "tests/gen/solid.h"
 #include "tests/tap.h"

@@ -1,6 +1,6 @@
 /* The tracer against POV-Ray: the same triangles, each entity glowing in a colour that is its id and its
  * depth, one ray a pixel. */
-#include "gen/trace.h"
+#include "gen/trace/trace.h"
 #include "lib/file.h"
 
 #include "tests/gen/solid.h"

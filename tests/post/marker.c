@@ -1,9 +1,9 @@
 /* Markers at known points through all that carries geometry from scene to photograph: view_cover,
  * camera_write, POV-Ray as staffage-povray runs it, resample_view. Where they come out is held
  * against camera_project, which knows neither views nor rays. */
-#include "gen/camera_sdl.h"
-#include "gen/makefile.h"
-#include "gen/sdl.h"
+#include "gen/render/camera_sdl.h"
+#include "gen/render/makefile.h"
+#include "gen/render/sdl.h"
 #include "lib/camera.h"
 #include "lib/file.h"
 #include "lib/view.h"

@@ -1,6 +1,6 @@
 /* write-makefile OUT TEMPLATES WIDTH HEIGHT OPTIONS [NAME | NAME:empty]...: makefile_write, for
  * tests of what people type that need no real scene. */
-#include "gen/makefile.h"
+#include "gen/render/makefile.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,0 +1,50 @@
+/* The light of a scene: a sun, and a sky that lights, shades and is reflected.
+ *
+ * One unit for all of it: radiance is relative, scaled so that a level white surface in the open
+ * has luminance 1, and an irradiance E is kept as E / pi, the radiance of a white matte surface
+ * that receives it. It is what POV-Ray's light colours mean. Colours are linear Rec.709. */
+#ifndef STAFFAGE_GEN_LIGHT_H
+#define STAFFAGE_GEN_LIGHT_H
+
+#include "gen/scene/scene.h"
+#include "lib/error.h"
+#include "lib/image.h"
+#include "lib/vec.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#define SUN_RADIUS_RAD (0.5 * 0.53 * 3.14159265358979323846 / 180)
+
+struct light {
+    bool has_sun;
+    struct vec3 sun_direction;  /* unit, world, towards the sun */
+    double sun_color[3];        /* normal irradiance / pi */
+    struct image sky;           /* F32 3: radiance. Row 0 looks up (+z), the last row down; column
+                                   0 begins at +x and columns turn towards +y */
+    double irradiance[3];       /* on a level surface in the open, sun and sky, / pi */
+};
+
+/* A direction that stands for a share of the sky: a parallel light in the shadow pass. */
+struct sky_light {
+    struct vec3 direction;      /* unit, towards the light, above the horizon */
+    double color[3];            /* normal irradiance / pi */
+};
+
+/* Sun and sky of a scene. The sky below the horizon has the colour of the ground.
+ * Err: ERR_INPUT at the scene's sun: it stands below the horizon; what sun_position says
+ * Src: clear: Preetham, Shirley, Smits 1999, A Practical Analytic Model for Daylight
+ *      (form, colour, sun), IES RP-21 1984 (how much light the clear sky gives);
+ *      overcast: CIE S 011/E:2003, type 1 in its traditional form (1 + 2 sin e) / 3 */
+bool light_create(struct light *light, const struct scene *scene, struct error *err);
+void light_release(struct light *light);
+
+/* The sky's radiance in a direction. */
+void light_sky_radiance(double color[3], const struct light *light, struct vec3 direction);
+
+/* n lights that share the level surface's irradiance equally: importance-sampled by radiance and
+ * cosine, stratified; their sum on a level surface is the sky's irradiance exactly.
+ * Out: lights (n) */
+void light_sample_sky(struct sky_light *lights, size_t n, const struct light *light);
+
+#endif

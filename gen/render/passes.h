@@ -1,0 +1,62 @@
+/* The scenes that POV-Ray renders: model includes, and the object, plane and shadow pass of a frame. */
+#ifndef STAFFAGE_GEN_PASSES_H
+#define STAFFAGE_GEN_PASSES_H
+
+#include "gen/world/entity.h"
+#include "gen/light/light.h"
+#include "gen/world/receiver.h"
+#include "gen/scene/scene.h"
+#include "lib/view.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* POV-Ray runs in the output folder: scenes name what they include relative to it. */
+#define MODELS_FOLDER "frames/models"
+#define TEXTURES_FOLDER "frames/textures"
+
+/* What rendering at a quality costs and gives. */
+struct pass_settings {
+    size_t sky_lights;         /* in the plane and shadow passes */
+    bool soft_sky_lights;      /* each an area of the sky rather than a point of it */
+    int radiosity_count;       /* in the object pass */
+    double radiosity_error;
+    int receiver_reduction;    /* of the plane and shadow passes against the object pass */
+    /* POV-Ray options. The plane and shadow passes share theirs: along the receivers' edges their ratio
+     * is 1 only where both are sampled alike. */
+    const char *object_antialias, *receiver_antialias;
+};
+struct pass_settings pass_settings(enum quality quality, enum sky_kind sky);
+
+/* The name under which an entity's model, in its colour, is declared; the include file is
+ * MODELS_FOLDER/NAME.inc. */
+#define MODEL_NAME_SIZE 48
+void model_include_name(char name[MODEL_NAME_SIZE], size_t model_index, const struct entity *entity);
+
+/* Write the include file of an entity's model in its colour, and its textures.
+ * Err: ERR_IO, ERR_MEMORY */
+bool model_include_write(const char *out_folder, size_t model_index, const struct entity *entity, struct error *err);
+
+/* Write the light's sky map under a name made from its content, unless it is there.
+ * Out: path, relative to the output folder */
+#define SKY_MAP_SIZE 40
+bool sky_map_write(char path[SKY_MAP_SIZE], const char *out_folder, const struct light *light, struct error *err);
+
+/* All that the three scenes of a frame say. */
+struct passes {
+    const struct scene *scene;
+    const char *sky_map;            /* of light, in a file: path relative to the output folder */
+    const struct light *light;
+    struct view view;
+    struct pose world_from_camera;
+    const struct entity *entities;
+    const size_t *model_index;      /* (entity_count) */
+    size_t entity_count;
+    const struct receiver *receivers;
+    size_t receiver_count;
+};
+
+/* Write object.pov, plane.pov and shadow.pov into frame_folder. */
+bool passes_write(const char *frame_folder, const struct passes *passes, struct error *err);
+
+#endif

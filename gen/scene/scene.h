@@ -1,0 +1,130 @@
+/* A scene: what the user's YAML file says, checked, in our units. docs/scene.md
+ * describes every key; the table in scene_keys.c is what that page is tested against.
+ *
+ * Every pixel position in a scene is in pixels of `camera`, as the file gives it: a photograph of
+ * another size, or a reduced one, has them scaled with the camera. */
+#ifndef STAFFAGE_GEN_SCENE_H
+#define STAFFAGE_GEN_SCENE_H
+
+#include "gen/world/entity.h"
+#include "gen/world/ground.h"
+#include "gen/model/model.h"
+#include "gen/light/sun.h"
+#include "lib/camera.h"
+#include "lib/class.h"
+#include "lib/error.h"
+#include "lib/vec.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Where in the scene file something stands, for errors that are found later. */
+struct source { int line, column; };
+
+enum place_kind { PLACE_WORLD, PLACE_GEODETIC, PLACE_PIXEL };
+
+struct scene_model {
+    char *name;
+    char *file;                /* resolved against the scene file */
+    struct model_options options; /* rules are filled in later */
+    bool has_class;
+    enum entity_class class_;
+    struct source source;
+};
+
+struct scene_entity {
+    char *name;
+    char *model;               /* names a scene_model */
+    size_t model_index;
+    enum entity_class class_;
+    enum place_kind place;
+    double at[3];              /* WORLD: x, y m · GEODETIC: latitude, longitude deg · PIXEL: x, y px */
+    double heading_rad;
+    bool has_color;
+    double color[3];           /* linear */
+    struct source source, at_source;
+};
+
+/* Something in the photograph that hides what passes behind it. */
+struct scene_occluder {
+    char *name;
+    struct vec2 *polygon_px;   /* (n) */
+    size_t polygon_count;
+    struct vec2 ground_px;     /* where it stands on the ground */
+    struct source source;
+};
+
+enum sky_kind { SKY_CLEAR, SKY_OVERCAST };
+enum sun_kind { SUN_NONE, SUN_BY_TIME, SUN_GIVEN };
+enum transfer_kind { TRANSFER_LAYERS, TRANSFER_RATIO, TRANSFER_THRESHOLD, TRANSFER_ALPHA };
+enum overwrite_side { OVERWRITE_ABOVE, OVERWRITE_BELOW };
+enum mask_rule { MASK_TRACED, MASK_DILATED };
+enum quality { QUALITY_DRAFT, QUALITY_STANDARD, QUALITY_HIGH };
+
+struct scene {
+    char *path;                /* of the scene file */
+    uint64_t hash;             /* of the scene file's bytes */
+
+    /* photographs: one file a frame, or frames of a video */
+    char **photographs;        /* (photograph_count) resolved paths; for a video 1 path */
+    size_t photograph_count;
+    bool is_video;
+    int *video_frames;         /* (video_frame_count) */
+    size_t video_frame_count;
+    double scale;              /* photographs are reduced by this factor (1 = as they are) */
+
+    struct camera camera;      /* at the size that it was given for */
+    struct pose world_from_camera;
+    struct source camera_source;
+
+    bool has_place;
+    struct geodetic place;
+    bool has_time;
+    struct utc_time time_utc;
+    double north_rad;          /* azimuth of the world's +y axis, clockwise from true north */
+    enum sun_kind sun;         /* NONE under an overcast sky and only there; BY_TIME: place and time are there */
+    double sun_azimuth_rad, sun_elevation_rad; /* GIVEN: azimuth clockwise from true north */
+    struct source sun_source;
+
+    struct plane ground;
+    double ground_albedo[3];   /* linear */
+    double ground_reflection;  /* 0..1, mirror share at normal incidence of a wet road; 0 dry */
+
+    enum sky_kind sky;
+    double turbidity;
+    double sun_scale;          /* multiplies the sun's irradiance; 1 */
+
+    bool exposure_given;
+    double exposure;           /* photograph linear value per radiance unit */
+    struct vec2 exposure_patch_px[2]; /* corners: top left, bottom right; inside the camera's picture */
+    struct source exposure_source;
+    bool white_balance;        /* fit each channel, not luminance only */
+
+    struct scene_model *models;
+    size_t model_count;
+    struct scene_entity *entities;
+    size_t entity_count;
+    struct scene_occluder *occluders;
+    size_t occluder_count;
+
+    enum transfer_kind transfer;
+    double t1, t2, t3;         /* 0..255 */
+    enum overwrite_side overwrite;
+    enum mask_rule mask;
+
+    enum quality quality;
+    int seed;
+    char *material_rules;      /* resolved path, or NULL for the installed file */
+};
+
+/* Read and check a scene file. Everything that the file alone can tell is checked here,
+ * files that it names exist.
+ * Err: ERR_INPUT at file:line:column with what is wrong and what would be right */
+bool scene_read(struct scene **scene, const char *path, struct error *err);
+void scene_destroy(struct scene *scene);
+
+/* One line a key, for the test that keeps docs/scene.md complete: "path\ttype\tunit\tdefault\n". */
+char *scene_schema_text(void);
+
+#endif

@@ -1,0 +1,142 @@
+#include "gen/scene/scene_keys.h"
+
+#include "gen/scene/scene.h"
+
+#include <math.h>
+
+#define NAMES(function, ...)                                                              \
+    const char *function(int i)                                                           \
+    {                                                                                     \
+        static const char *const names[] = { __VA_ARGS__ };                               \
+        return (size_t)i < sizeof names / sizeof *names ? names[i] : NULL;                \
+    }
+
+NAMES(camera_axes_name, [CAMERA_AXES_OPENCV] = "opencv", [CAMERA_AXES_OPENGL] = "opengl",
+      [CAMERA_AXES_X_LEFT_Y_UP] = "x-left-y-up")
+NAMES(world_direction_name, [WORLD_EAST] = "east", [WORLD_WEST] = "west", [WORLD_NORTH] = "north",
+      [WORLD_SOUTH] = "south", [WORLD_UP] = "up", [WORLD_DOWN] = "down")
+NAMES(model_axis_name, [AXIS_POS_X] = "+x", [AXIS_NEG_X] = "-x", [AXIS_POS_Y] = "+y", [AXIS_NEG_Y] = "-y",
+      [AXIS_POS_Z] = "+z", [AXIS_NEG_Z] = "-z", "x", "y", "z")
+NAMES(sky_name, [SKY_CLEAR] = "clear", [SKY_OVERCAST] = "overcast")
+NAMES(sun_name, "auto", "none")
+NAMES(transfer_name, [TRANSFER_LAYERS] = "layers", [TRANSFER_RATIO] = "ratio", [TRANSFER_THRESHOLD] = "threshold",
+      [TRANSFER_ALPHA] = "alpha")
+NAMES(overwrite_name, [OVERWRITE_ABOVE] = "above", [OVERWRITE_BELOW] = "below")
+NAMES(mask_name, [MASK_TRACED] = "traced", [MASK_DILATED] = "dilated")
+NAMES(quality_name, [QUALITY_DRAFT] = "draft", [QUALITY_STANDARD] = "standard", [QUALITY_HIGH] = "high")
+
+const char *lens_name(int i)
+{
+    return i < CAMERA_MODEL_COUNT ? camera_model_name((enum camera_model)i) : NULL;
+}
+
+const char *class_choice_name(int i)
+{
+    return i < CLASS_COUNT ? class_info((enum entity_class)i)->name : NULL;
+}
+
+#define LIMITS(from, to) .min = (from), .max = (to)
+#define ABOVE(from, to) .min = (from), .max = (to), .above_min = true
+#define COUNT(n) .count_min = (n), .count_max = (n)
+#define PIXELS_MAX 65535
+#define SECTION .preset = "{}"
+
+static const struct schema_key keys[] = {
+    { "staffage", TYPE_INTEGER, .presence = REQUIRED, LIMITS(1, INFINITY) },
+    { "photographs", TYPE_MAPPING, .presence = REQUIRED },
+    { "photographs.files", TYPE_FILES, .presence = ONE_OF, .count_min = 1 },
+    { "photographs.video", TYPE_FILE, .presence = ONE_OF },
+    { "photographs.frames", TYPE_RANGE | TYPE_INTEGERS, .count_min = 1, LIMITS(0, FRAME_MAX) },
+    { "photographs.scale", TYPE_NUMBER, .preset = "1", ABOVE(0, 1) },
+
+    { "camera", TYPE_MAPPING, .presence = REQUIRED },
+    { "camera.model", TYPE_CHOICE, .presence = REQUIRED, .choice = lens_name },
+    { "camera.size_px", TYPE_INTEGERS, "px", .presence = REQUIRED, COUNT(2), LIMITS(1, PIXELS_MAX) },
+    { "camera.params", TYPE_NUMBERS, "px", .presence = ONE_OF, .count_min = 3, .count_max = CAMERA_PARAMS_MAX },
+    { "camera.horizontal_fov_deg", TYPE_NUMBER, "deg", .presence = ONE_OF, LIMITS(1, 170) },
+    { "camera.pose", TYPE_MAPPING, .presence = REQUIRED },
+    { "camera.pose.axes", TYPE_CHOICE, .preset = "opencv", .choice = camera_axes_name },
+    { "camera.pose.world_axes", TYPE_CHOICES, .preset = "[east, north, up]", COUNT(3),
+      .choice = world_direction_name },
+    { "camera.pose.matrix", TYPE_ROWS, "m", .presence = ONE_OF, .count_min = 3, .count_max = 4, .columns = 4 },
+    { "camera.pose.camera_from_world", TYPE_MAPPING, .presence = ONE_OF },
+    { "camera.pose.camera_from_world.quaternion_wxyz", TYPE_NUMBERS, .presence = ONE_OF, COUNT(4) },
+    { "camera.pose.camera_from_world.rotation", TYPE_ROWS, .presence = ONE_OF, COUNT(3), .columns = 3 },
+    { "camera.pose.camera_from_world.translation_m", TYPE_NUMBERS, "m", .presence = REQUIRED, COUNT(3) },
+    { "camera.pose.position_m", TYPE_NUMBERS, "m", .presence = ONE_OF, COUNT(3) },
+    { "camera.pose.quaternion_wxyz", TYPE_NUMBERS, COUNT(4) },
+    { "camera.pose.rotation", TYPE_ROWS, COUNT(3), .columns = 3 },
+    { "camera.pose.look_at", TYPE_MAPPING, .presence = ONE_OF },
+    { "camera.pose.look_at.position_m", TYPE_NUMBERS, "m", .presence = REQUIRED, COUNT(3) },
+    { "camera.pose.look_at.target_m", TYPE_NUMBERS, "m", .presence = REQUIRED, COUNT(3) },
+    { "camera.pose.look_at.up", TYPE_NUMBERS, COUNT(3) },
+    { "camera.pose.look_at.roll_deg", TYPE_NUMBER, "deg", .preset = "0", LIMITS(-180, 180) },
+
+    { "place", TYPE_MAPPING, .presence = OPTIONAL },
+    { "place.latitude_deg", TYPE_NUMBER, "deg", .presence = REQUIRED, LIMITS(-90, 90) },
+    { "place.longitude_deg", TYPE_NUMBER, "deg", .presence = REQUIRED, LIMITS(-180, 180) },
+    { "place.height_m", TYPE_NUMBER, "m", .preset = "0", LIMITS(-1000, 100000) },
+    { "north_deg", TYPE_NUMBER, "deg", .preset = "0", LIMITS(-360, 360) },
+    { "time", TYPE_TIME, .presence = OPTIONAL },
+
+    { "light", TYPE_MAPPING, .presence = REQUIRED },
+    { "light.sky", TYPE_CHOICE, .presence = REQUIRED, .choice = sky_name },
+    { "light.turbidity", TYPE_NUMBER, .preset = "3", LIMITS(1.7, 10) },
+    { "light.sun", TYPE_CHOICE | TYPE_MAPPING, .preset = "auto", .choice = sun_name },
+    { "light.sun.azimuth_deg", TYPE_NUMBER, "deg", .presence = REQUIRED, LIMITS(-360, 360) },
+    { "light.sun.elevation_deg", TYPE_NUMBER, "deg", .presence = REQUIRED, ABOVE(0, 90) },
+    { "light.sun_scale", TYPE_NUMBER, .preset = "1", LIMITS(0, INFINITY) },
+
+    { "ground", TYPE_MAPPING, .presence = REQUIRED },
+    { "ground.height_m", TYPE_NUMBER, "m", .presence = ONE_OF },
+    { "ground.plane", TYPE_NUMBERS, "m", .presence = ONE_OF, COUNT(4) },
+    { "ground.points_m", TYPE_ROWS, "m", .presence = ONE_OF, .count_min = 3, .columns = 3 },
+    { "ground.albedo", TYPE_NUMBER | TYPE_NUMBERS | TYPE_COLOR, .preset = "0.2", COUNT(3), LIMITS(0, 1) },
+    { "ground.reflection", TYPE_NUMBER, .preset = "0", LIMITS(0, 1) },
+
+    { "exposure", TYPE_MAPPING, .presence = REQUIRED },
+    { "exposure.patch_px", TYPE_INTEGERS, "px", .presence = ONE_OF, COUNT(4), LIMITS(0, PIXELS_MAX) },
+    { "exposure.value", TYPE_NUMBER, .presence = ONE_OF, ABOVE(0, INFINITY) },
+    { "exposure.white_balance", TYPE_BOOLEAN, .preset = "true" },
+
+    { "models", TYPE_NAMED, .presence = REQUIRED },
+    { "models.NAME.file", TYPE_FILE, .presence = REQUIRED },
+    { "models.NAME.unit_m", TYPE_NUMBER, "m", .presence = AT_MOST_ONE_OF, ABOVE(0, 1000) },
+    { "models.NAME.length_m", TYPE_NUMBER, "m", .presence = AT_MOST_ONE_OF, ABOVE(0, 1000) },
+    { "models.NAME.height_m", TYPE_NUMBER, "m", .presence = AT_MOST_ONE_OF, ABOVE(0, 1000) },
+    { "models.NAME.up", TYPE_CHOICE, .choice = model_axis_name },
+    { "models.NAME.front", TYPE_CHOICE, .choice = model_axis_name },
+    { "models.NAME.class", TYPE_CHOICE, .choice = class_choice_name },
+    { "materials", TYPE_MAPPING, SECTION },
+    { "materials.rules", TYPE_FILE, .presence = OPTIONAL },
+
+    { "entities", TYPE_ITEMS, .presence = REQUIRED },
+    { "entities[].name", TYPE_TEXT, .presence = REQUIRED, .count_max = 120 },
+    { "entities[].model", TYPE_TEXT, .presence = REQUIRED },
+    { "entities[].class", TYPE_CHOICE, .choice = class_choice_name },
+    { "entities[].at", TYPE_MAPPING, .presence = REQUIRED },
+    { "entities[].at.world_m", TYPE_NUMBERS, "m", .presence = ONE_OF, COUNT(2) },
+    { "entities[].at.pixel", TYPE_NUMBERS, "px", .presence = ONE_OF, COUNT(2), LIMITS(0, PIXELS_MAX) },
+    { "entities[].at.latitude_deg", TYPE_NUMBER, "deg", .presence = ONE_OF, LIMITS(-90, 90) },
+    { "entities[].at.longitude_deg", TYPE_NUMBER, "deg", LIMITS(-180, 180) },
+    { "entities[].heading_deg", TYPE_NUMBER, "deg", .presence = REQUIRED, LIMITS(-360, 360) },
+    { "entities[].color", TYPE_COLOR | TYPE_NUMBERS, COUNT(3), LIMITS(0, 1) },
+
+    { "occluders", TYPE_ITEMS, .preset = "[]" },
+    { "occluders[].name", TYPE_TEXT, .presence = REQUIRED, .count_max = 120 },
+    { "occluders[].polygon_px", TYPE_ROWS, "px", .presence = REQUIRED, .count_min = 3, .columns = 2 },
+    { "occluders[].ground_px", TYPE_NUMBERS, "px", .presence = REQUIRED, COUNT(2) },
+
+    { "transfer", TYPE_MAPPING, SECTION },
+    { "transfer.method", TYPE_CHOICE, .preset = "layers", .choice = transfer_name },
+    { "transfer.t1", TYPE_NUMBER, .preset = "30", LIMITS(0, 255) },
+    { "transfer.t2", TYPE_NUMBER, .preset = "200", LIMITS(0, 255) },
+    { "transfer.t3", TYPE_NUMBER, .preset = "96", LIMITS(0, 255) },
+    { "transfer.overwrite", TYPE_CHOICE, .preset = "above", .choice = overwrite_name },
+    { "labels", TYPE_MAPPING, SECTION },
+    { "labels.mask", TYPE_CHOICE, .preset = "traced", .choice = mask_name },
+    { "quality", TYPE_CHOICE, .preset = "standard", .choice = quality_name },
+    { "seed", TYPE_INTEGER, .preset = "0", LIMITS(0, 2147483647) },
+};
+
+const struct schema scene_schema = { keys, sizeof keys / sizeof *keys };

@@ -1,0 +1,30 @@
+/* The parts of the ground where an entity can change the light: what the plane and
+ * shadow passes render, and nothing beyond. */
+#ifndef STAFFAGE_GEN_RECEIVER_H
+#define STAFFAGE_GEN_RECEIVER_H
+
+#include "gen/world/entity.h"
+#include "gen/world/ground.h"
+#include "gen/light/light.h"
+#include "lib/error.h"
+#include "lib/vec.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* A convex polygon on the ground, counter-clockwise from above. */
+struct receiver {
+    struct vec3 *corner_m; /* (corners) world; owned */
+    size_t corners;
+};
+
+/* The ground around an entity as far as it takes away more than about a hundredth of the light
+ * (2.5 times its height under an overcast sky), together with its shadow in the sun.
+ * Err: ERR_MEMORY */
+bool receiver_create(struct receiver *receiver, const struct entity *entity, const struct plane *ground,
+                     const struct light *light, struct error *err);
+void receiver_release(struct receiver *receiver);
+/* Is a ground point within it, seen from above? */
+bool receiver_contains(const struct receiver *receiver, struct vec3 p_m);
+
+#endif
