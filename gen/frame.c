@@ -483,7 +483,7 @@ static bool write_manifest(const struct generator *g, const char *path, const st
         .exposure_given = s->exposure_given, .exposure = s->exposure, .white_balance = s->white_balance,
         .t1 = s->t1, .t2 = s->t2, .t3 = s->t3,
         .overwrite_below = s->overwrite == OVERWRITE_BELOW, .mask_dilated = s->mask == MASK_DILATED,
-        .has_occluders = s->occluder_count > 0, .entity_count = s->entity_count,
+        .has_shares = s->occluder_count > 0, .entity_count = s->entity_count,
     };
     snprintf(m.frame, sizeof m.frame, "%s", result->name);
     snprintf(m.photograph, sizeof m.photograph, "%s", photograph);
@@ -541,8 +541,10 @@ static bool make_frame(struct frame_result *result, struct generator *g, const c
         error_set(err, ERR_MEMORY, "no memory for a frame");
         goto out;
     }
-    if (!trace_frame(&labels, g->tracer, &g->camera, s->world_from_camera, &s->ground, g->entities, s->entity_count,
-                     g->occluders, s->occluder_count, err))
+    if (!trace_frame(&labels, g->tracer, &(struct trace_input){ .camera = &g->camera, .world_from_camera = s->world_from_camera,
+                                                                .ground = &s->ground, .entities = g->entities,
+                                                                .entity_count = s->entity_count, .occluders = g->occluders,
+                                                                .occluder_count = s->occluder_count }, err))
         goto out;
     struct rect window = changed_window(matters, g, &labels);
     result->empty = window.x1 <= window.x0 || window.y1 <= window.y0;

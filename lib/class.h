@@ -3,6 +3,7 @@
 #define STAFFAGE_LIB_CLASS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 enum entity_class {
@@ -19,6 +20,17 @@ struct class_info {
 };
 
 const struct class_info *class_info(enum entity_class c);
+
+/* Which label set semantic images are written in. */
+enum palette { PALETTE_CITYSCAPES, PALETTE_UAVID, PALETTE_COUNT };
+/* "cityscapes", "uavid"; NULL from PALETTE_COUNT on. */
+const char *palette_name(int palette);
+/* A label of a palette: an id and its colour. UAVid's ids are in the order of FORMATS.md's list, from 0. */
+struct palette_label { const char *name; uint8_t id; uint8_t color[3]; };
+/* Out: *n. Static, by id. */
+const struct palette_label *palette_labels(enum palette palette, size_t *n);
+/* The label that an entity's pixels get: for Cityscapes class_info's, for UAVid human or moving car. */
+struct palette_label palette_entity(enum palette palette, enum entity_class c);
 bool class_from_name(enum entity_class *c, const char *name);
 
 #endif

@@ -277,7 +277,7 @@ static bool walk_manifest(struct walk *walk, struct manifest *m)
            one_of(walk, "transfer", m->transfer, transfers) && walk_real(walk, "t1", &m->t1, 0, 255) &&
            walk_real(walk, "t2", &m->t2, 0, 255) && walk_real(walk, "t3", &m->t3, 0, 255) &&
            walk_bool(walk, "overwrite_below", &m->overwrite_below) && walk_bool(walk, "mask_dilated", &m->mask_dilated) &&
-           walk_bool(walk, "has_occluders", &m->has_occluders) && walk_entities(walk, m) && leave(walk);
+           walk_bool(walk, "has_shares", &m->has_shares) && walk_entities(walk, m) && leave(walk);
 }
 
 static bool walk_version(struct walk *walk)

@@ -20,6 +20,7 @@ struct manifest {
     char frame[16];             /* "000123" */
     char photograph[1024];      /* absolute, or relative to the output folder */
     int width_px, height_px;    /* of the result; the photograph is scaled to it */
+    bool new_view;              /* no photograph: background.png in the frame's folder, rendered from the mesh */
     char key[17];               /* hash of all that the frame depends on, 16 hex digits */
     struct camera camera;
     struct pose world_from_camera;
@@ -36,7 +37,22 @@ struct manifest {
     double t1, t2, t3;          /* 0..255 */
     bool overwrite_below;
     bool mask_dilated;
-    bool has_occluders;         /* visible.png and receiver.png are there */
+    bool has_shares;            /* visible.png and receiver.png are there: occluders, or a place in front */
+    bool has_place;             /* place_depth.exr is there: F32, z of the static mesh, NaN where it has none */
+    bool has_place_labels;      /* place_labels.png is there: U8, class ids of the static mesh in `palette` */
+    enum palette palette;       /* of semantic/ and semantic_id/ */
+    char semantic[1024];        /* the photograph's own semantic image (colours or ids), "" for none */
+    char depth[1024];           /* the photograph's own depth image, "" for none */
+    struct vec2 *exposure_sample_px; /* (exposure_samples) pixels of sunlit ground: the exposure is fitted */
+    size_t exposure_samples;         /* to their median rather than to the patch; 0: the patch */
+    bool has_mist;              /* entities and their shadows fade with distance */
+    double visibility_m;        /* meteorological: contrast falls to 5 % (WMO) */
+    double haze[3];             /* colour of the air far away, linear values of the photograph */
+    bool has_motion;            /* motion.exr is there: F32, 3 channels: pixels right and down that what is seen
+                                 * (an entity, or the shade of one) moves while the shutter is open; and 0 */
+    double defocus_px;          /* diameter of the blur at infinite distance, in px, 0: none */
+    double focus_m;             /* distance of focus: diameter at z is defocus_px * |1 - focus_m / z| */
+    double softness_px;         /* standard deviation of a blur that all of the photograph has; 0: none */
     struct manifest_entity *entities;
     size_t entity_count;
 };

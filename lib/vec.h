@@ -53,4 +53,11 @@ struct pose pose_inverse(struct pose b_from_a);
 struct pose pose_compose(struct pose a_from_b, struct pose b_from_c);
 struct vec3 pose_apply(struct pose a_from_b, struct vec3 p_b);
 
+/* p_a = rotation * (scale * p_b) + translation; scale > 0 */
+struct similarity { double scale; struct mat3 rotation; struct vec3 translation; };
+static inline struct vec3 similarity_apply(struct similarity a_from_b, struct vec3 p_b)
+{
+    return vec3_add(mat3_apply(a_from_b.rotation, vec3_scale(p_b, a_from_b.scale)), a_from_b.translation);
+}
+
 #endif

@@ -182,7 +182,7 @@ static bool merge(struct frame *f, struct error *err)
     if (ok) {
         struct transfer_input in = {
             .photograph = &linear, .object = &f->layers[OBJECT], .plane = &f->layers[PLANE], .shadow = &f->layers[SHADOW],
-            .visible = m->has_occluders ? &f->visible : NULL, .receiver = m->has_occluders ? &f->receiver : NULL,
+            .visible = m->has_shares ? &f->visible : NULL, .receiver = m->has_shares ? &f->receiver : NULL,
             .exposure = { exposure.k[0], exposure.k[1], exposure.k[2] },
         };
         ok = transfer(&merged, f, &in, err);
@@ -219,7 +219,7 @@ static bool post(struct frame *f, struct error *err)
 {
     if (!read_manifest(f, err)) return false;
     const struct manifest *m = &f->manifest;
-    bool hidden = m->has_occluders && !m->empty;
+    bool hidden = m->has_shares && !m->empty;
     if (!read_photograph(f, err) || !read_layer(&f->instance, f, "instance.png", PIXEL_U16, err) ||
         !read_layer(&f->depth, f, "depth.exr", PIXEL_F32, err))
         return false;

@@ -48,9 +48,10 @@ static json_t *json_camera(const struct label_context *c)
 static json_t *json_hiders(const struct entity_labels *l)
 {
     json_t *list = json_array();
+    static const char *const kinds[] = { [HIDER_ENTITY] = "entity", [HIDER_OCCLUDER] = "occluder", [HIDER_PLACE] = "place" };
     for (size_t i = 0; i < l->hider_count; i++) {
         const struct hider *h = &l->hiders[i];
-        json_array_append_new(list, json_pack("{s:s, s:s, s:I, s:I}", "kind", h->id ? "entity" : "occluder",
+        json_array_append_new(list, json_pack("{s:s, s:s, s:I, s:I}", "kind", kinds[h->kind],
                                               "name", h->name, "id", (json_int_t)h->id, "pixels", (json_int_t)h->pixels));
     }
     return list;

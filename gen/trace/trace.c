@@ -59,6 +59,7 @@ static const struct shape *tracer_shape(const struct tracer *tracer, const struc
 /* An entity in this frame. */
 struct cast {
     const struct shape *shape;
+    struct shape *own;    /* the shape, where the tracer does not hold it */
     struct pose entity_from_camera;
     struct rect reach_px; /* where it can be, beyond the photograph as well */
     struct rect frame_px; /* the part of that inside the photograph */
@@ -97,8 +98,10 @@ static bool cast_init(struct cast *cast, const struct tracer *tracer, const stru
                       struct pose world_from_camera, const struct entity *entity, struct error *err)
 {
     cast->shape = tracer_shape(tracer, entity->model);
-    if (!cast->shape)
-        return error_set(err, ERR_BUG, "entity %s has a model that the tracer was not made with", entity->name);
+    if (!cast->shape) {
+        if (!shape_create(&cast->own, tracer->device, entity->model, err)) return false;
+        cast->shape = cast->own;
+    }
     cast->entity_from_camera = pose_compose(pose_inverse(entity->world_from_entity), world_from_camera);
     struct vec3 min_m, max_m;
     if (!shape_bounds(cast->shape, &min_m, &max_m)) return true;
@@ -117,18 +120,16 @@ static bool cast_init(struct cast *cast, const struct tracer *tracer, const stru
     return true;
 }
 
-static bool frame_init(struct frame *frame, const struct tracer *tracer, const struct camera *camera,
-                       struct pose world_from_camera, const struct plane *ground, const struct entity *entities,
-                       size_t entity_count, const struct occluder *occluders, size_t occluder_count, struct error *err)
+static bool frame_init(struct frame *frame, const struct tracer *tracer, const struct trace_input *in, struct error *err)
 {
-    size_t width = (size_t)camera->width_px;
-    if (!rays_init(&frame->rays, camera, err)) return false;
-    frame->entities = entities;
-    frame->casts = calloc(entity_count + 1, sizeof *frame->casts);
-    frame->screens = calloc(occluder_count + 1, sizeof *frame->screens);
+    size_t width = (size_t)in->camera->width_px, entities = in->entity_count, occluders = in->occluder_count;
+    if (!rays_init(&frame->rays, in->camera, err)) return false;
+    frame->entities = in->entities;
+    frame->casts = calloc(entities + 1, sizeof *frame->casts);
+    frame->screens = calloc(occluders + 1, sizeof *frame->screens);
     frame->range_m = malloc(width * sizeof *frame->range_m);
     frame->front = malloc(width * sizeof *frame->front);
-    frame->counts = calloc(entity_count * (entity_count + occluder_count) + 1, sizeof *frame->counts);
+    frame->counts = calloc(entities * (entities + occluders) + 1, sizeof *frame->counts);
     frame->probe = malloc(3 * width * sizeof *frame->probe);
     frame->probe_z = malloc(3 * width * sizeof *frame->probe_z);
     frame->probe_range_m = malloc(3 * width * sizeof *frame->probe_range_m);
@@ -136,19 +137,20 @@ static bool frame_init(struct frame *frame, const struct tracer *tracer, const s
     if (!frame->casts || !frame->screens || !frame->range_m || !frame->front || !frame->counts || !frame->probe ||
         !frame->probe_z || !frame->probe_range_m || !frame->probe_x)
         return error_set(err, ERR_MEMORY, "no memory for the labels of a frame");
-    frame->ground = sight_plane(ground->normal, ground->offset_m, world_from_camera);
-    frame->cast_count = entity_count;
-    for (size_t i = 0; i < entity_count; i++)
-        if (!cast_init(&frame->casts[i], tracer, camera, world_from_camera, &entities[i], err)) return false;
-    frame->screen_count = occluder_count;
-    for (size_t i = 0; i < occluder_count; i++)
-        if (!screen_init(&frame->screens[i], camera, world_from_camera, &occluders[i], err)) return false;
-    return occluder_count == 0 || image_init(&frame->ahead, camera->width_px, camera->height_px, 1, PIXEL_F32, err);
+    frame->ground = sight_plane(in->ground->normal, in->ground->offset_m, in->world_from_camera);
+    frame->cast_count = entities;
+    for (size_t i = 0; i < entities; i++)
+        if (!cast_init(&frame->casts[i], tracer, in->camera, in->world_from_camera, &in->entities[i], err)) return false;
+    frame->screen_count = occluders;
+    for (size_t i = 0; i < occluders; i++)
+        if (!screen_init(&frame->screens[i], in->camera, in->world_from_camera, &in->occluders[i], err)) return false;
+    return occluders == 0 || image_init(&frame->ahead, in->camera->width_px, in->camera->height_px, 1, PIXEL_F32, err);
 }
 
 static void frame_release(struct frame *frame)
 {
     for (size_t i = 0; i < frame->cast_count; i++) {
+        shape_destroy(frame->casts[i].own);
         free(frame->casts[i].mask);
         free(frame->casts[i].depth_m);
     }
@@ -294,8 +296,8 @@ static bool list_hiders(const struct frame *frame, struct entity_labels *out, si
     for (size_t k = 0; k < things; k++) {
         if (k == index || counts[k] == 0) continue;
         out->hiders[n++] = k < frame->cast_count
-                               ? (struct hider){ frame->entities[k].id, frame->entities[k].name, counts[k] }
-                               : (struct hider){ 0, frame->screens[k - frame->cast_count].occluder->name, counts[k] };
+                               ? (struct hider){ HIDER_ENTITY, frame->entities[k].id, frame->entities[k].name, counts[k] }
+                               : (struct hider){ HIDER_OCCLUDER, 0, frame->screens[k - frame->cast_count].occluder->name, counts[k] };
     }
     out->hider_count = n;
     qsort(out->hiders, n, sizeof *out->hiders, by_pixels);
@@ -333,24 +335,22 @@ static bool finish_entity(const struct frame *frame, struct entity_labels *out, 
     return list_hiders(frame, out, index, err) && crop(cast, out, err);
 }
 
-bool trace_frame(struct frame_labels *labels, struct tracer *tracer, const struct camera *camera,
-                 struct pose world_from_camera, const struct plane *ground, const struct entity *entities,
-                 size_t entity_count, const struct occluder *occluders, size_t occluder_count, struct error *err)
+bool trace_frame(struct frame_labels *labels, struct tracer *tracer, const struct trace_input *in, struct error *err)
 {
     struct frame frame = { 0 };
     struct frame_labels out = { 0 };
     bool ok = false;
-    if (!frame_init(&frame, tracer, camera, world_from_camera, ground, entities, entity_count, occluders,
-                    occluder_count, err) ||
+    const struct camera *camera = in->camera;
+    if (!frame_init(&frame, tracer, in, err) ||
         !image_init(&out.instance, camera->width_px, camera->height_px, 1, PIXEL_U16, err) ||
         !image_init(&out.depth, camera->width_px, camera->height_px, 1, PIXEL_F32, err))
         goto out;
-    out.entities = calloc(entity_count + 1, sizeof *out.entities);
+    out.entities = calloc(in->entity_count + 1, sizeof *out.entities);
     if (!out.entities) {
         error_set(err, ERR_MEMORY, "no memory for the labels of a frame");
         goto out;
     }
-    out.entity_count = entity_count;
+    out.entity_count = in->entity_count;
     for (int y = -camera->height_px; y < 2 * camera->height_px; y++) {
         rays_begin_row(&frame.rays, y);
         if (y >= 0 && y < camera->height_px) {
@@ -360,9 +360,9 @@ bool trace_frame(struct frame_labels *labels, struct tracer *tracer, const struc
         }
         trace_outside(&frame, y);
     }
-    for (size_t i = 0; i < entity_count; i++)
+    for (size_t i = 0; i < in->entity_count; i++)
         if (!finish_entity(&frame, &out.entities[i], i, err)) goto out;
-    if (occluder_count > 0 && !screens_share(&out.visible, &out.receiver, frame.screens, frame.screen_count,
+    if (in->occluder_count > 0 && !screens_share(&out.visible, &out.receiver, frame.screens, frame.screen_count,
                                              &frame.rays, &frame.ahead, frame.ground, err))
         goto out;
     *labels = out;

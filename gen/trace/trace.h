@@ -4,6 +4,7 @@
 #define STAFFAGE_GEN_TRACE_H
 
 #include "gen/world/entity.h"
+#include "gen/world/static_mesh.h"
 #include "lib/camera.h"
 #include "lib/image.h"
 #include "lib/view.h"
@@ -30,7 +31,8 @@ struct occluder {
 
 /* Who hides part of an entity: a pixel counts for the one thing that is nearest there. So an
  * entity's visible pixels and its hiders' pixels add up to its amodal pixels in the photograph. */
-struct hider { uint16_t id; /* 0: an occluder */ const char *name; int64_t pixels; };
+enum hider_kind { HIDER_ENTITY, HIDER_OCCLUDER, HIDER_PLACE };
+struct hider { enum hider_kind kind; uint16_t id; /* of an entity, else 0 */ const char *name; /* of the place: "place" */ int64_t pixels; };
 
 struct entity_labels {
     bool in_frame;                /* any amodal pixel inside the photograph */
@@ -53,19 +55,34 @@ struct frame_labels {
     struct image instance;        /* U16 1: entity id, 0 none */
     struct image depth;           /* F32 1: z of the visible entity, NaN elsewhere */
     struct image visible;         /* U8 1: 255 x share (8 x 8 samples) of the nearest entity at this pixel, or within
-                                   * 2 px of it, that no occluder hides; 255 elsewhere; empty without occluders */
-    struct image receiver;        /* U8 1: the same for the ground plane; empty without occluders */
+                                   * 2 px of it, that nothing static hides; 255 elsewhere; empty without occluders and place */
+    struct image receiver;        /* U8 1: the same for what receives shadows: the ground plane, or the place within
+                                   * the receivers; empty without occluders and place */
+    struct image place_depth;     /* F32 1: z of the place, whatever entity is before it, NaN where there is none;
+                                   * empty without a place */
+    struct image place_label;     /* U8 1: label of the place's face there, 0 without; empty unless it has labels */
     struct entity_labels *entities; /* (n) in the order of the entities */
     size_t entity_count;
 };
 
-/* A pixel belongs to the nearest entity that its ray meets, unless an occluder is nearer.
- * Err: ERR_MEMORY; ERR_INPUT: an occluder's foot right below or above the camera; ERR_BUG: an entity's model
- *      is not the tracer's; labels untouched on failure. Embree's own threads are not used: one core a process. */
-bool trace_frame(struct frame_labels *labels, struct tracer *tracer, const struct camera *camera,
-                 struct pose world_from_camera, const struct plane *ground,
-                 const struct entity *entities, size_t entity_count,
-                 const struct occluder *occluders, size_t occluder_count, struct error *err);
+/* What a frame shows. All borrowed. */
+struct trace_input {
+    const struct camera *camera;
+    struct pose world_from_camera;
+    const struct entity *entities;      /* one whose model is not the tracer's (posed for this frame) is indexed here */
+    size_t entity_count;
+    const struct occluder *occluders;
+    size_t occluder_count;
+    const struct plane *ground;         /* what receives shadows, without a place */
+    const struct static_mesh *place;    /* NULL: none. It hides entities, and receives shadows within `receivers` */
+    const struct prism *receivers;      /* (receiver_count) */
+    size_t receiver_count;
+};
+
+/* A pixel belongs to the nearest entity that its ray meets, unless an occluder or the place is nearer.
+ * Err: ERR_MEMORY; ERR_INPUT: an occluder's foot right below or above the camera; labels untouched on
+ *      failure. Embree's own threads are not used: one core a process. */
+bool trace_frame(struct frame_labels *labels, struct tracer *tracer, const struct trace_input *in, struct error *err);
 void frame_labels_release(struct frame_labels *labels);
 
 #endif

@@ -229,7 +229,8 @@ int main(void)
     struct tracer *tracer = NULL;
     struct frame_labels labels = { 0 };
     bool ok = tracer_create(&tracer, models, 2, &err) &&
-              trace_frame(&labels, tracer, &camera, camera_pose, &flat, entities, 3, &post, 1, &err);
+              trace_frame(&labels, tracer, &(struct trace_input){ .camera = &camera, .world_from_camera = camera_pose, .ground = &flat,
+                                                                  .entities = entities, .entity_count = 3, .occluders = &post, .occluder_count = 1 }, &err);
     struct label_context context = {
         "000042", "/a/street.jpg", &camera, camera_pose, true, { 0, 0.6, 0.8 }, entities, 3
     };

@@ -192,7 +192,8 @@ int main(void)
         struct tracer *tracer;
         struct frame_labels labels;
         if (OK(tracer_create(&tracer, models, 1, &err) &&
-               trace_frame(&labels, tracer, &scene.camera, scene.world_from_camera, &scene.ground, &entity, 1, NULL, 0, &err),
+               trace_frame(&labels, tracer, &(struct trace_input){ .camera = &scene.camera, .world_from_camera = scene.world_from_camera,
+                                                                   .ground = &scene.ground, .entities = &entity, .entity_count = 1 }, &err),
                "%s: labels traced", name)) {
             int inner;
             double agreement = iou(&pass[0], &labels.instance, p.view.window_px, &inner);

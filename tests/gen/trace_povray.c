@@ -163,7 +163,8 @@ int main(void)
     struct tracer *tracer = NULL;
     struct frame_labels labels = { 0 };
     OK(tracer_create(&tracer, models, 3, &err) &&
-           trace_frame(&labels, tracer, &camera, pose, &flat, entities, 4, NULL, 0, &err),
+           trace_frame(&labels, tracer, &(struct trace_input){ .camera = &camera, .world_from_camera = pose, .ground = &flat,
+                                                               .entities = entities, .entity_count = 4 }, &err),
        "four entities are traced%s", err.text);
 
     char folder[] = "trace-povray.XXXXXX";

@@ -33,7 +33,7 @@ static struct manifest whole_manifest(void)
         .t2 = 200.5,
         .t3 = 96,
         .overwrite_below = true,
-        .has_occluders = true,
+        .has_shares = true,
         .entities = entities,
         .entity_count = 2,
     };
@@ -65,7 +65,7 @@ static bool same(const struct manifest *a, const struct manifest *b)
            !memcmp(a->ground_radiance, b->ground_radiance, sizeof a->ground_radiance) &&
            !strcmp(a->transfer, b->transfer) && a->t1 == b->t1 && a->t2 == b->t2 && a->t3 == b->t3 &&
            a->overwrite_below == b->overwrite_below && a->mask_dilated == b->mask_dilated &&
-           a->has_occluders == b->has_occluders;
+           a->has_shares == b->has_shares;
 }
 
 static void comes_back(struct manifest manifest, const char *what)

@@ -128,7 +128,7 @@ static struct manifest manifest_of(const char *frame)
                   .view_from_camera = mat3_identity(), .window_px = window, .aligned = true },
         .receiver_reduction = 1,
         .exposure_given = true, .exposure = 2, .ground_radiance = { 0.1, 0.1, 0.1 },
-        .transfer = "layers", .t1 = 30, .t2 = 200, .t3 = 96, .has_occluders = true,
+        .transfer = "layers", .t1 = 30, .t2 = 200, .t3 = 96, .has_shares = true,
         .entities = entities, .entity_count = 1,
     };
     snprintf(m.frame, sizeof m.frame, "%s", frame);
@@ -307,7 +307,7 @@ static void check_unchanged(void)
     const char *f = "000002";
     struct manifest m = manifest_of(f);
     m.empty = true;
-    m.has_occluders = false;
+    m.has_shares = false;
     save_manifest(f, &m);
     struct image rgb;
     struct error err = ERROR_NONE;

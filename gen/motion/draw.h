@@ -1,0 +1,17 @@
+/* Random draws that depend on nothing but what they are for: (seed, frame, entity, purpose, index). */
+#ifndef STAFFAGE_GEN_DRAW_H
+#define STAFFAGE_GEN_DRAW_H
+
+#include <stdint.h>
+
+enum draw_purpose { DRAW_LANE, DRAW_POSITION, DRAW_KIND, DRAW_COLOR, DRAW_SPEED, DRAW_PHASE, DRAW_OFFSET, DRAW_TIME };
+
+struct draw_key { uint64_t seed; int64_t frame; uint32_t entity; enum draw_purpose purpose; };
+
+/* Uniform in [0, 1). The same key and index give the same number, everywhere and always.
+ * Src: splitmix64 over the key (Steele, Lea, Flood 2014) */
+double draw_uniform(struct draw_key key, uint32_t index);
+/* Standard normal, by the inverse of the distribution. */
+double draw_normal(struct draw_key key, uint32_t index);
+
+#endif

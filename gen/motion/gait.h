@@ -1,0 +1,27 @@
+/* How a rigged model walks: its own animation, played by the distance gone, so that no foot slides. */
+#ifndef STAFFAGE_GEN_GAIT_H
+#define STAFFAGE_GEN_GAIT_H
+
+#include "gen/model/model.h"
+#include "lib/error.h"
+
+#include <stdbool.h>
+
+/* Of one animation: what the body must move forward, at each time of the loop, for the planted
+ * foot to stay where it is. */
+struct gait {
+    double duration_s;    /* of one loop of the animation */
+    double stride_m;      /* gone in one loop */
+    double *advance_m;    /* (samples + 1) distance gone at times i / samples * duration, 0 to stride_m, ascending */
+    int samples;
+    bool walks;           /* false: feet stay (somebody stands): time runs by itself */
+};
+
+/* Measure the model's first animation.
+ * Err: ERR_INPUT at the model's path: it has no animation; no foot is ever on the ground */
+bool gait_create(struct gait *gait, const struct model *model, struct error *err);
+void gait_release(struct gait *gait);
+/* The animation's time after a distance, from a phase (0..1) of the loop. */
+double gait_time(const struct gait *gait, double distance_m, double phase);
+
+#endif
