@@ -29,7 +29,8 @@ const char *palette_name(int palette);
 struct palette_label { const char *name; uint8_t id; uint8_t color[3]; };
 /* Out: *n. Static, by id. */
 const struct palette_label *palette_labels(enum palette palette, size_t *n);
-/* The label that an entity's pixels get: for Cityscapes class_info's, for UAVid human or moving car. */
+/* The label that an entity's pixels get: for Cityscapes class_info's; for UAVid human, moving car,
+ * or clutter for what is neither (a bicycle, a train, an animal). */
 struct palette_label palette_entity(enum palette palette, enum entity_class c);
 bool class_from_name(enum entity_class *c, const char *name);
 

@@ -6,6 +6,7 @@ lib_libstaffage_a_SOURCES = \
   %D%/error.c %D%/error.h \
   %D%/file.c %D%/file.h \
   %D%/image.c %D%/image.h %D%/image_io.cpp \
+  %D%/json_walk.c %D%/json_walk.h \
   %D%/opencv.h \
   %D%/place.cpp %D%/place.h \
   %D%/rect.h \

@@ -12,13 +12,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define MANIFEST_VERSION 1
+#define MANIFEST_VERSION 2
 
 struct manifest_entity { uint16_t id; char name[128]; enum entity_class class_; };
 
 struct manifest {
     char frame[16];             /* "000123" */
-    char photograph[1024];      /* absolute, or relative to the output folder */
+    char photograph[1024];      /* absolute, or relative to the output folder; "" in a new view */
     int width_px, height_px;    /* of the result; the photograph is scaled to it */
     bool new_view;              /* no photograph: background.png in the frame's folder, rendered from the mesh */
     char key[17];               /* hash of all that the frame depends on, 16 hex digits */

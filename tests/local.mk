@@ -6,6 +6,11 @@ AM_TESTS_ENVIRONMENT = top_srcdir='$(abs_top_srcdir)' top_builddir='$(abs_top_bu
 EXTRA_DIST += %D%/tap.h
 
 # Unit tests, one program a module. Each links C++ through the shims.
+check_PROGRAMS += tests/lib/class.test
+tests_lib_class_test_SOURCES = %D%/lib/class.c %D%/tap.h
+nodist_EXTRA_tests_lib_class_test_SOURCES = dummy.cxx
+tests_lib_class_test_LDADD = $(LIB_LIBS)
+
 check_PROGRAMS += tests/lib/vec.test
 tests_lib_vec_test_SOURCES = %D%/lib/vec.c %D%/tap.h
 nodist_EXTRA_tests_lib_vec_test_SOURCES = dummy.cxx

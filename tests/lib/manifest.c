@@ -34,6 +34,18 @@ static struct manifest whole_manifest(void)
         .t3 = 96,
         .overwrite_below = true,
         .has_shares = true,
+        .has_place = true,
+        .has_place_labels = true,
+        .palette = PALETTE_UAVID,
+        .semantic = "/labels/semantic.png",
+        .depth = "/labels/depth.exr",
+        .has_mist = true,
+        .visibility_m = 1e4 / 3,
+        .haze = { 0.7, 0.8, 0.1 + 0.2 },
+        .has_motion = true,
+        .defocus_px = 1 / 3.0,
+        .focus_m = 20.5,
+        .softness_px = 0.7,
         .entities = entities,
         .entity_count = 2,
     };
@@ -65,7 +77,14 @@ static bool same(const struct manifest *a, const struct manifest *b)
            !memcmp(a->ground_radiance, b->ground_radiance, sizeof a->ground_radiance) &&
            !strcmp(a->transfer, b->transfer) && a->t1 == b->t1 && a->t2 == b->t2 && a->t3 == b->t3 &&
            a->overwrite_below == b->overwrite_below && a->mask_dilated == b->mask_dilated &&
-           a->has_shares == b->has_shares;
+           a->has_shares == b->has_shares && a->new_view == b->new_view && a->has_place == b->has_place &&
+           a->has_place_labels == b->has_place_labels && a->palette == b->palette && !strcmp(a->semantic, b->semantic) &&
+           !strcmp(a->depth, b->depth) && a->has_mist == b->has_mist && a->visibility_m == b->visibility_m &&
+           !memcmp(a->haze, b->haze, sizeof a->haze) && a->has_motion == b->has_motion &&
+           a->defocus_px == b->defocus_px && a->focus_m == b->focus_m && a->softness_px == b->softness_px &&
+           a->exposure_samples == b->exposure_samples &&
+           (a->exposure_samples == 0 ||
+            !memcmp(a->exposure_sample_px, b->exposure_sample_px, a->exposure_samples * sizeof *a->exposure_sample_px));
 }
 
 static void comes_back(struct manifest manifest, const char *what)
@@ -120,6 +139,16 @@ int main(void)
     manifest.exposure_given = true;
     manifest.exposure = 1.0 / 3;
     comes_back(manifest, "a given exposure");
+    struct vec2 samples[] = { { 1 / 3.0, 2.5 }, { 1e3 / 7, 0.1 } };
+    manifest = whole_manifest();
+    manifest.exposure_patch_px = (struct rect){ 0, 0, 0, 0 };
+    manifest.exposure_sample_px = samples;
+    manifest.exposure_samples = 2;
+    comes_back(manifest, "an exposure of samples");
+    manifest = whole_manifest();
+    manifest.photograph[0] = manifest.semantic[0] = manifest.depth[0] = '\0';
+    manifest.new_view = true;
+    comes_back(manifest, "a new view");
     manifest = (struct manifest){ .frame = "000000", .photograph = "p.png", .width_px = 1, .height_px = 1,
                                   .key = "ffffffffffffffff", .camera = { CAMERA_SIMPLE_PINHOLE, 2, 2, { 1, 1, 1 } },
                                   .world_from_camera = pose_identity(), .empty = true, .transfer = "layers" };
@@ -131,12 +160,12 @@ int main(void)
     manifest = whole_manifest();
     bool done = manifest_write(path, &manifest, &err) && file_read(&first, &size, path, &err) &&
                 manifest_write(path, &manifest, &err) && file_read(&second, &size, path, &err);
-    OK(done && !strcmp(first, second) && !strncmp(first, "{\n \"version\": 1,\n \"frame\": \"000123\"", 33),
+    OK(done && !strcmp(first, second) && !strncmp(first, "{\n \"version\": 2,\n \"frame\": \"000123\"", 33),
        "the same manifest is the same bytes, version first");
 
-    refuses("\"version\": 1", "\"version\": 2", "\"version\" is 2, this program reads 1", "another version");
-    refuses("\"version\": 1", "\"version\": 1.0", "\"version\" must be a whole number", "a version that is no number of ours");
-    refuses("\"version\": 1,", "", "\"version\" is missing", "a file without a version");
+    refuses("\"version\": 2", "\"version\": 3", "\"version\" is 3, this program reads 2", "another version");
+    refuses("\"version\": 2", "\"version\": 2.0", "\"version\" must be a whole number", "a version that is no number of ours");
+    refuses("\"version\": 2,", "", "\"version\" is missing", "a file without a version");
     refuses("\"empty\": false,", "", "\"empty\" is missing", "a missing key");
     refuses("\"params\"", "\"parms\"", "\"camera.params\" is missing", "a missing key of an object");
     refuses("\"id\": 65535,", "", "\"entities[1].id\" is missing", "a missing key of an entity");
@@ -155,6 +184,12 @@ int main(void)
     refuses("\"threshold\"", "\"treshold\"", "\"transfer\" has no value treshold", "an unknown transfer");
     refuses("0123456789abcdef", "0123456789ABCDEF", "\"key\" must be 16 hex digits", "a key of other digits");
     refuses("-0.2183", "-0.3183", "\"world_from_camera.rotation\" must be a rotation", "a matrix that bends");
+    refuses("/photographs/a\\\\b.jpg", "", "\"photograph\" is empty, and the frame is no new view", "a frame of nothing");
+    refuses("\"new_view\": false", "\"new_view\": true", "\"photograph\" must be empty in a new view", "a new view that was taken");
+    refuses("\"uavid\"", "\"uavit\"", "\"palette\" names no palette: uavit", "an unknown palette");
+    refuses("\"visibility_m\"", "\"visibility\"", "\"visibility_m\" is missing", "a mist of no visibility");
+    refuses("\"focus_m\": 20.5", "\"focus_m\": 0", "\"focus_m\" must be more than 0 where there is a defocus", "a focus at the lens");
+    refuses("\"exposure_sample_px\": []", "\"exposure_sample_px\": [[1, 2], [3]]", "\"exposure_sample_px\" must hold pairs", "a sample of one number");
     refuses("000123", "0001230001230000", "\"frame\" must be a text of 1 to 15 bytes", "a text that is too long");
 
     size_t lengths[] = { 0, 1, strlen(first) / 2, strlen(first) - 2 };
