@@ -17,6 +17,7 @@ gen_libgen_a_SOURCES = \
   %D%/model/model_texture.c %D%/model/model_texture.h \
   %D%/model/paint.c %D%/model/paint.h \
   %D%/model/texture.c %D%/model/texture.h \
+  %D%/motion/draw.c %D%/motion/draw.h \
   %D%/render/camera_sdl.c %D%/render/camera_sdl.h \
   %D%/render/makefile.c %D%/render/makefile.h \
   %D%/render/passes.c %D%/render/passes.h \
@@ -37,6 +38,7 @@ gen_libgen_a_SOURCES = \
   %D%/trace/trace.c %D%/trace/trace.h \
   %D%/world/entity.c %D%/world/entity.h \
   %D%/world/ground.c %D%/world/ground.h \
+  %D%/world/path.c %D%/world/path.h \
   %D%/world/receiver.c %D%/world/receiver.h
 GEN_LIBS = gen/libgen.a $(LIB_LIBS) $(TINYGLTF_LIBS) $(ASSIMP_LIBS) $(EMBREE_LIBS) $(ERFA_LIBS) $(YAML_LIBS)
 

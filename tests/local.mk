@@ -121,4 +121,14 @@ tests_gen_label_test_SOURCES = %D%/gen/label.c %D%/gen/solid.h %D%/tap.h
 nodist_EXTRA_tests_gen_label_test_SOURCES = dummy.cxx
 tests_gen_label_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/draw.test
+tests_gen_draw_test_SOURCES = %D%/gen/draw.c %D%/tap.h
+nodist_EXTRA_tests_gen_draw_test_SOURCES = dummy.cxx
+tests_gen_draw_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/path.test
+tests_gen_path_test_SOURCES = %D%/gen/path.c %D%/tap.h
+nodist_EXTRA_tests_gen_path_test_SOURCES = dummy.cxx
+tests_gen_path_test_LDADD = $(GEN_LIBS)
+
 TESTS += $(check_PROGRAMS) $(dist_check_SCRIPTS)

@@ -8,6 +8,9 @@ enum draw_purpose { DRAW_LANE, DRAW_POSITION, DRAW_KIND, DRAW_COLOR, DRAW_SPEED,
 
 struct draw_key { uint64_t seed; int64_t frame; uint32_t entity; enum draw_purpose purpose; };
 
+/* The next number of a sequence. */
+uint64_t splitmix64(uint64_t *state);
+
 /* Uniform in [0, 1). The same key and index give the same number, everywhere and always.
  * Src: splitmix64 over the key (Steele, Lea, Flood 2014) */
 double draw_uniform(struct draw_key key, uint32_t index);
