@@ -1,7 +1,7 @@
 # staffage-gen: from the scene file to POV-Ray scenes and label layers.
 noinst_LIBRARIES += gen/libgen.a
 gen_libgen_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(TINYGLTF_CFLAGS) $(ASSIMP_CFLAGS) \
-  $(ERFA_CFLAGS) $(YAML_CFLAGS) $(JANSSON_CFLAGS)
+  $(ERFA_CFLAGS) $(YAML_CFLAGS) $(JANSSON_CFLAGS) $(READOSM_CFLAGS)
 gen_libgen_a_SOURCES = \
   %D%/frame.c %D%/frame.h \
   %D%/light/light.c %D%/light/light.h \
@@ -38,9 +38,12 @@ gen_libgen_a_SOURCES = \
   %D%/trace/trace.c %D%/trace/trace.h \
   %D%/world/entity.c %D%/world/entity.h \
   %D%/world/ground.c %D%/world/ground.h \
+  %D%/world/osm.c %D%/world/osm.h \
   %D%/world/path.c %D%/world/path.h \
-  %D%/world/receiver.c %D%/world/receiver.h
-GEN_LIBS = gen/libgen.a $(LIB_LIBS) $(TINYGLTF_LIBS) $(ASSIMP_LIBS) $(EMBREE_LIBS) $(ERFA_LIBS) $(YAML_LIBS)
+  %D%/world/receiver.c %D%/world/receiver.h \
+  %D%/world/road.c %D%/world/road.h \
+  %D%/world/road_tags.c %D%/world/road_tags.h
+GEN_LIBS = gen/libgen.a $(LIB_LIBS) $(TINYGLTF_LIBS) $(ASSIMP_LIBS) $(EMBREE_LIBS) $(ERFA_LIBS) $(YAML_LIBS) $(READOSM_LIBS)
 
 
 bin_PROGRAMS += staffage-gen
