@@ -26,8 +26,9 @@ struct reconstruction {
     struct vec3 *points;             /* sparse; may be none */
     struct recon_observation *observations;
     size_t camera_count, shot_count, point_count, observation_count;
+    size_t left_out_count;           /* shots of parts that hang together with no other: only the largest is read */
     bool has_stated_error;
-    double stated_error_px;          /* mean reprojection error that the tool states */
+    double stated_error_px;          /* by the tool: the mean over the points of each one's mean reprojection error */
     bool is_enu;                     /* the tool says that its world is east, north, up, metres */
     double reference_lat_lon_h[3];   /* with is_enu: its origin */
 };
@@ -42,7 +43,19 @@ bool opensfm_read(struct reconstruction *reconstruction, const char *folder, str
 bool nerfstudio_read(struct reconstruction *reconstruction, const char *folder, struct error *err);
 void reconstruction_release(struct reconstruction *reconstruction);
 
-/* Root mean square and mean length of the observations' reprojection errors through our cameras. */
-void reconstruction_error(const struct reconstruction *reconstruction, double *rms_px, double *mean_px);
+/* For the readers: the file at a path, or the first of names (NULL ends them) in the folder at it.
+ * Returns NULL with ERR_INPUT at path when there is none; the caller frees. */
+char *reconstruction_file(const char *path, const char *const *names, struct error *err);
+/* Bring the shots into the order of their images' names; before observations point to them.
+ * Err: ERR_INPUT at file: none, or two of one image */
+bool reconstruction_sort(struct reconstruction *reconstruction, const char *file, struct error *err);
+
+/* Lengths of the observations' reprojection errors through our cameras. */
+struct reprojection {
+    double rms_px, mean_px;          /* over all observations */
+    double point_mean_px;            /* over the points, of each one's mean: what COLMAP calls mean reprojection error */
+    size_t without_image;            /* observations of points that lie behind their camera; they count nowhere */
+};
+struct reprojection reconstruction_reprojection(const struct reconstruction *reconstruction);
 
 #endif
