@@ -1,15 +1,29 @@
-/* From a scene to frames: entities resolved, labels traced, passes written, manifest last. */
+/* One frame of a scene: who is where, exact labels, the passes' scenes, and the manifest last. */
 #ifndef STAFFAGE_GEN_FRAME_H
 #define STAFFAGE_GEN_FRAME_H
 
+#include "gen/light/light.h"
+#include "gen/render/passes.h"
 #include "gen/scene/scene.h"
+#include "gen/stage.h"
+#include "gen/trace/trace.h"
+#include "lib/camera.h"
 #include "lib/error.h"
 #include "lib/view.h"
 
 #include <stdbool.h>
-#include <stddef.h>
 
 #define FRAME_NAME_SIZE 16
+
+/* What all frames share. Borrowed. */
+struct frame_context {
+    const struct scene *scene;
+    const char *out_folder;
+    const struct stage *stage;
+    const struct light *light;
+    const char *sky_map;        /* relative to out_folder */
+    struct tracer *tracer;
+};
 
 /* One frame as it stands after generating: what the makefile is written from. */
 struct frame_result {
@@ -20,35 +34,13 @@ struct frame_result {
     bool kept;                  /* it was there already, from the same input */
 };
 
-/* Everything that is loaded once for all frames. */
-struct generator;
-
-/* Load models, light and tracer, and check what the scene file alone cannot tell.
- * In: scene and out_folder are borrowed for the generator's life; rules_path: the material
- *     rules when the scene names none
- * Out: *generator, the caller's
- * Err: ERR_INPUT at the user's file and line */
-bool generator_create(struct generator **generator, const struct scene *scene, const char *out_folder,
-                      const char *rules_path, struct error *err);
-void generator_destroy(struct generator *generator);
-
-/* How many frames the scene has, and the name of each. */
-size_t generator_frame_count(const struct generator *generator);
-void generator_frame_name(char name[FRAME_NAME_SIZE], const struct generator *generator, size_t frame);
-
-/* Textures that models name and that were not found: one line each, in the order found. */
-size_t generator_warning_count(const struct generator *generator);
-const char *generator_warning(const struct generator *generator, size_t i);
-
-/* Take the photographs of the frames first ... end-1 out of the video, those that are missing;
- * nothing to do for files. Call before generator_frame. */
-bool generator_prepare(struct generator *generator, const size_t *frames, size_t n, struct error *err);
-
-/* Generate one frame, unless it is there from the same input. */
-bool generator_frame(struct frame_result *result, struct generator *generator, size_t frame, struct error *err);
-
-/* OUT/run.json: version, scene and its hash, settings, light, frames. */
-bool generator_write_run(const struct generator *generator, const struct frame_result *frames, size_t n,
-                         struct error *err);
+/* Write a frame's folder.
+ * In:  result->name; photograph as the manifest is to name it ("" for a new view); camera at the
+ *      photograph's size; key: hash of all that the frame depends on
+ * Out: result; its view is empty in an empty frame
+ * Err: ERR_INPUT at the scene, ERR_IO, ERR_MEMORY */
+bool frame_make(struct frame_result *result, const struct frame_context *context, const struct scene_shot *shot,
+                const struct camera *camera, const char *folder, const char *photograph, const char *key,
+                struct error *err);
 
 #endif

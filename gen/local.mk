@@ -4,6 +4,7 @@ gen_libgen_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(TINYGLTF_CFLAGS) $(ASS
   $(ERFA_CFLAGS) $(YAML_CFLAGS) $(JANSSON_CFLAGS) $(READOSM_CFLAGS)
 gen_libgen_a_SOURCES = \
   %D%/frame.c %D%/frame.h \
+  %D%/generator.c %D%/generator.h \
   %D%/light/light.c %D%/light/light.h \
   %D%/light/sun.c %D%/light/sun.h \
   %D%/model/gltf.cpp %D%/model/gltf.h \
@@ -24,11 +25,17 @@ gen_libgen_a_SOURCES = \
   %D%/render/sdl.c %D%/render/sdl.h \
   %D%/scene/nearest.c %D%/scene/nearest.h \
   %D%/scene/scene.c %D%/scene/scene.h \
+  %D%/scene/scene_cast.c \
   %D%/scene/scene_keys.c %D%/scene/scene_keys.h \
   %D%/scene/scene_pose.c %D%/scene/scene_pose.h \
+  %D%/scene/scene_place.c \
+  %D%/scene/scene_read.h \
+  %D%/scene/scene_shots.c \
+  %D%/scene/scene_traffic.c \
   %D%/scene/schema.c %D%/scene/schema.h \
   %D%/scene/schema_words.c %D%/scene/schema_words.h \
   %D%/scene/yaml.c %D%/scene/yaml.h \
+  %D%/stage.c %D%/stage.h \
   %D%/trace/footprint.c %D%/trace/footprint.h \
   %D%/trace/label.c %D%/trace/label.h \
   %D%/trace/polygon.c %D%/trace/polygon.h \

@@ -1,5 +1,5 @@
 /* staffage-gen: options in, one call, an exit code out. */
-#include "gen/frame.h"
+#include "gen/generator.h"
 #include "gen/render/makefile.h"
 #include "gen/render/passes.h"
 #include "gen/scene/scene.h"

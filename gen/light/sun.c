@@ -131,6 +131,18 @@ static double refraction_rad(double elevation_rad, struct atmosphere air)
            * 1.02 / (60 * tan((e_deg + 10.3 / (e_deg + 5.11)) * RAD_FROM_DEG)) * RAD_FROM_DEG;
 }
 
+double utc_time_since(struct utc_time later, struct utc_time earlier)
+{
+    const struct utc_time *t[2] = { &later, &earlier };
+    double days[2], seconds[2];
+    for (int i = 0; i < 2; i++) {
+        double zero;
+        eraCal2jd(t[i]->year, t[i]->month, t[i]->day, &zero, &days[i]);
+        seconds[i] = t[i]->hour * 3600.0 + t[i]->minute * 60.0 + t[i]->second;
+    }
+    return (days[0] - days[1]) * 86400 + (seconds[0] - seconds[1]);
+}
+
 bool sun_position(struct sun_position *sun, struct utc_time utc, double dut1_s, struct geodetic place,
                   struct atmosphere air, struct error *err)
 {

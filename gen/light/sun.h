@@ -15,6 +15,9 @@ struct utc_time { int year, month, day, hour, minute; double second; };
  * Returns NULL, or what is wrong and what would be right (a static string). */
 const char *utc_time_parse(struct utc_time *utc, const char *text);
 
+/* Seconds from one moment to a later one; leap seconds are not counted. */
+double utc_time_since(struct utc_time later, struct utc_time earlier);
+
 struct geodetic { double latitude_rad, longitude_rad, height_m; }; /* WGS 84, ellipsoidal height */
 
 /* Pressure 0 leaves refraction out. Pressure is that of the place, not reduced to sea level. */

@@ -1,13 +1,14 @@
 /* A scene: what the user's YAML file says, checked, in our units. docs/scene.md
  * describes every key; the table in scene_keys.c is what that page is tested against.
  *
- * Every pixel position in a scene is in pixels of `camera`, as the file gives it: a photograph of
- * another size, or a reduced one, has them scaled with the camera. */
+ * Every pixel position in a scene is in pixels of the shot's camera, as the file gives it: a photograph
+ * of another size, or a reduced one, has them scaled with the camera. */
 #ifndef STAFFAGE_GEN_SCENE_H
 #define STAFFAGE_GEN_SCENE_H
 
 #include "gen/world/entity.h"
 #include "gen/world/ground.h"
+#include "gen/world/road.h"
 #include "gen/model/model.h"
 #include "gen/light/sun.h"
 #include "lib/camera.h"
@@ -33,14 +34,63 @@ struct scene_model {
     struct source source;
 };
 
+struct scene_camera { char *name; struct camera camera; struct source source; }; /* at the size that it was given for */
+
+/* One frame of the result. */
+struct scene_shot {
+    int number;                /* names the frame; of a video, the frame there */
+    char *photograph;          /* resolved path; NULL: a frame of the video, or a new view of the static mesh */
+    size_t camera;
+    struct pose world_from_camera;
+    double time_s;             /* after the scene's time */
+    char *semantic, *depth;    /* resolved paths of images that belong to the photograph, or NULL */
+    struct source source;
+};
+
+/* The place as mesh. */
+struct scene_static {
+    char *mesh;                /* resolved path; NULL: the ground is a plane */
+    struct similarity world_from_mesh;
+    double detail_m;
+    struct source source;
+};
+
+/* A road or footway by hand. */
+struct scene_path {
+    char *name;
+    enum road_use use;
+    enum place_kind place;
+    struct vec2 *points;       /* (n) WORLD: x, y m · GEODETIC: latitude, longitude deg · PIXEL: px of the shot */
+    size_t n, shot;
+    double width_m;
+    bool oneway;
+    struct source source;
+};
+
+/* Vehicles or people that come by themselves. */
+struct scene_movers {
+    size_t count;              /* 0: none */
+    size_t *models;            /* (model_count) indices into scene.models */
+    double *weights;
+    size_t model_count;
+    double speed_m_s;
+    double (*colors)[3];       /* (color_count) linear */
+    size_t color_count;
+    struct source source;
+};
+
 struct scene_entity {
     char *name;
     char *model;               /* names a scene_model */
     size_t model_index;
     enum entity_class class_;
     enum place_kind place;
-    double at[3];              /* WORLD: x, y m · GEODETIC: latitude, longitude deg · PIXEL: x, y px */
+    double at[3];              /* WORLD: x, y m · GEODETIC: latitude, longitude deg · PIXEL: x, y px of the shot */
+    size_t shot;
     double heading_rad;
+    char *path;                /* name of a road or path that it follows, or NULL: it stands */
+    double start_m, offset_m;  /* along the path at time 0; to its left */
+    double speed_m_s;          /* along the path, negative: backward, facing that way */
     bool has_color;
     double color[3];           /* linear */
     struct source source, at_source;
@@ -66,36 +116,43 @@ struct scene {
     char *path;                /* of the scene file */
     uint64_t hash;             /* of the scene file's bytes */
 
-    /* photographs: one file a frame, or frames of a video */
-    char **photographs;        /* (photograph_count) resolved paths; for a video 1 path */
-    size_t photograph_count;
-    bool is_video;
-    int *video_frames;         /* (video_frame_count) */
-    size_t video_frame_count;
+    char *video;               /* resolved path, or NULL */
+    struct source video_source;
     double scale;              /* photographs are reduced by this factor (1 = as they are) */
-
-    struct camera camera;      /* at the size that it was given for */
-    struct pose world_from_camera;
-    struct source camera_source;
+    struct scene_camera *cameras;
+    size_t camera_count;
+    struct scene_shot *shots;  /* (shot_count) */
+    size_t shot_count;
+    bool fixed_camera;         /* one camera, one pose: all shots share them */
+    bool has_times;            /* shots have times of their own, or a rate */
 
     bool has_place;
     struct geodetic place;
     bool has_time;
-    struct utc_time time_utc;
+    struct utc_time time_utc;  /* at time_s 0 of the shots */
     double north_rad;          /* azimuth of the world's +y axis, clockwise from true north */
     enum sun_kind sun;         /* NONE under an overcast sky and only there; BY_TIME: place and time are there */
     double sun_azimuth_rad, sun_elevation_rad; /* GIVEN: azimuth clockwise from true north */
     struct source sun_source;
 
-    struct plane ground;
+    struct scene_static static_;
+    struct plane ground;       /* without a static mesh */
     double ground_albedo[3];   /* linear */
     double ground_reflection;  /* 0..1, mirror share at normal incidence of a wet road; 0 dry */
 
     enum sky_kind sky;
     double turbidity;
     double sun_scale;          /* multiplies the sun's irradiance; 1 */
+    double fill;               /* shadowless light on entities, as a share of the light in the open */
 
-    bool exposure_given;
+    char *osm;                 /* resolved path of the road map, or NULL */
+    enum driving_side driving_side;
+    double sidewalk_m;
+    struct scene_path *paths;
+    size_t path_count;
+    struct scene_movers vehicles, people;
+
+    bool exposure_given, exposure_of_roads;
     double exposure;           /* photograph linear value per radiance unit */
     struct vec2 exposure_patch_px[2]; /* corners: top left, bottom right; inside the camera's picture */
     struct source exposure_source;
@@ -112,6 +169,12 @@ struct scene {
     double t1, t2, t3;         /* 0..255 */
     enum overwrite_side overwrite;
     enum mask_rule mask;
+    enum palette palette;
+
+    bool has_mist;
+    double visibility_m, haze[3]; /* haze: linear values of the photograph */
+    double exposure_s;         /* the shutter is open so long; 0: nothing blurs by moving */
+    double defocus_px, focus_m, softness_px; /* as in lib/manifest.h */
 
     enum quality quality;
     int seed;

@@ -1,6 +1,7 @@
 #include "gen/scene/scene_keys.h"
 
 #include "gen/scene/scene.h"
+#include "lib/class.h"
 
 #include <math.h>
 
@@ -23,6 +24,8 @@ NAMES(transfer_name, [TRANSFER_LAYERS] = "layers", [TRANSFER_RATIO] = "ratio", [
       [TRANSFER_ALPHA] = "alpha")
 NAMES(overwrite_name, [OVERWRITE_ABOVE] = "above", [OVERWRITE_BELOW] = "below")
 NAMES(mask_name, [MASK_TRACED] = "traced", [MASK_DILATED] = "dilated")
+NAMES(driving_side_name, [DRIVE_RIGHT] = "right", [DRIVE_LEFT] = "left")
+NAMES(road_use_name, [ROAD_VEHICLES] = "vehicles", [ROAD_PEOPLE] = "people")
 NAMES(quality_name, [QUALITY_DRAFT] = "draft", [QUALITY_STANDARD] = "standard", [QUALITY_HIGH] = "high")
 
 const char *lens_name(int i)
@@ -41,36 +44,62 @@ const char *class_choice_name(int i)
 #define PIXELS_MAX 65535
 #define SECTION .preset = "{}"
 
+/* A lens and a pose are written alike wherever they stand. */
+#define LENS(at)                                                                                      \
+    { at "model", TYPE_CHOICE, .presence = REQUIRED, .choice = lens_name },                           \
+    { at "size_px", TYPE_INTEGERS, "px", .presence = REQUIRED, COUNT(2), LIMITS(1, PIXELS_MAX) },     \
+    { at "params", TYPE_NUMBERS, "px", .presence = ONE_OF, .count_min = 3, .count_max = CAMERA_PARAMS_MAX }, \
+    { at "horizontal_fov_deg", TYPE_NUMBER, "deg", .presence = ONE_OF, LIMITS(1, 170) }
+
+#define POSE(at)                                                                                      \
+    { at, TYPE_MAPPING, .presence = REQUIRED },                                                       \
+    { at ".axes", TYPE_CHOICE, .preset = "opencv", .choice = camera_axes_name },                      \
+    { at ".world_axes", TYPE_CHOICES, .preset = "[east, north, up]", COUNT(3), .choice = world_direction_name }, \
+    { at ".matrix", TYPE_ROWS, "m", .presence = ONE_OF, .count_min = 3, .count_max = 4, .columns = 4 }, \
+    { at ".camera_from_world", TYPE_MAPPING, .presence = ONE_OF },                                    \
+    { at ".camera_from_world.quaternion_wxyz", TYPE_NUMBERS, .presence = ONE_OF, COUNT(4) },          \
+    { at ".camera_from_world.rotation", TYPE_ROWS, .presence = ONE_OF, COUNT(3), .columns = 3 },      \
+    { at ".camera_from_world.translation_m", TYPE_NUMBERS, "m", .presence = REQUIRED, COUNT(3) },     \
+    { at ".position_m", TYPE_NUMBERS, "m", .presence = ONE_OF, COUNT(3) },                            \
+    { at ".quaternion_wxyz", TYPE_NUMBERS, COUNT(4) },                                                \
+    { at ".rotation", TYPE_ROWS, COUNT(3), .columns = 3 },                                            \
+    { at ".look_at", TYPE_MAPPING, .presence = ONE_OF },                                              \
+    { at ".look_at.position_m", TYPE_NUMBERS, "m", .presence = REQUIRED, COUNT(3) },                  \
+    { at ".look_at.target_m", TYPE_NUMBERS, "m", .presence = REQUIRED, COUNT(3) },                    \
+    { at ".look_at.up", TYPE_NUMBERS, COUNT(3) },                                                     \
+    { at ".look_at.roll_deg", TYPE_NUMBER, "deg", .preset = "0", LIMITS(-180, 180) }
+
+/* Vehicles or people of the traffic. */
+#define MOVERS(at, speed)                                                                             \
+    { at, TYPE_MAPPING, .presence = OPTIONAL },                                                       \
+    { at ".count", TYPE_INTEGER, .presence = REQUIRED, LIMITS(1, 5000) },                             \
+    { at ".models", TYPE_NAMED, .presence = REQUIRED },                                               \
+    { at ".models.NAME.weight", TYPE_NUMBER, .preset = "1", ABOVE(0, INFINITY) },                     \
+    { at ".speed_m_s", TYPE_NUMBER, "m/s", .preset = speed, ABOVE(0, 100) },                          \
+    { at ".colors", TYPE_COLORS, .preset = "[]" }
+
 static const struct schema_key keys[] = {
     { "staffage", TYPE_INTEGER, .presence = REQUIRED, LIMITS(1, INFINITY) },
-    { "photographs", TYPE_MAPPING, .presence = REQUIRED },
+    { "photographs", TYPE_MAPPING, .presence = ONE_OF },
     { "photographs.files", TYPE_FILES, .presence = ONE_OF, .count_min = 1 },
     { "photographs.video", TYPE_FILE, .presence = ONE_OF },
     { "photographs.frames", TYPE_RANGE | TYPE_INTEGERS, .count_min = 1, LIMITS(0, FRAME_MAX) },
+    { "photographs.rate_hz", TYPE_NUMBER, "1/s", ABOVE(0, 100000) },
     { "photographs.scale", TYPE_NUMBER, .preset = "1", ABOVE(0, 1) },
 
-    { "camera", TYPE_MAPPING, .presence = REQUIRED },
-    { "camera.model", TYPE_CHOICE, .presence = REQUIRED, .choice = lens_name },
-    { "camera.size_px", TYPE_INTEGERS, "px", .presence = REQUIRED, COUNT(2), LIMITS(1, PIXELS_MAX) },
-    { "camera.params", TYPE_NUMBERS, "px", .presence = ONE_OF, .count_min = 3, .count_max = CAMERA_PARAMS_MAX },
-    { "camera.horizontal_fov_deg", TYPE_NUMBER, "deg", .presence = ONE_OF, LIMITS(1, 170) },
-    { "camera.pose", TYPE_MAPPING, .presence = REQUIRED },
-    { "camera.pose.axes", TYPE_CHOICE, .preset = "opencv", .choice = camera_axes_name },
-    { "camera.pose.world_axes", TYPE_CHOICES, .preset = "[east, north, up]", COUNT(3),
-      .choice = world_direction_name },
-    { "camera.pose.matrix", TYPE_ROWS, "m", .presence = ONE_OF, .count_min = 3, .count_max = 4, .columns = 4 },
-    { "camera.pose.camera_from_world", TYPE_MAPPING, .presence = ONE_OF },
-    { "camera.pose.camera_from_world.quaternion_wxyz", TYPE_NUMBERS, .presence = ONE_OF, COUNT(4) },
-    { "camera.pose.camera_from_world.rotation", TYPE_ROWS, .presence = ONE_OF, COUNT(3), .columns = 3 },
-    { "camera.pose.camera_from_world.translation_m", TYPE_NUMBERS, "m", .presence = REQUIRED, COUNT(3) },
-    { "camera.pose.position_m", TYPE_NUMBERS, "m", .presence = ONE_OF, COUNT(3) },
-    { "camera.pose.quaternion_wxyz", TYPE_NUMBERS, COUNT(4) },
-    { "camera.pose.rotation", TYPE_ROWS, COUNT(3), .columns = 3 },
-    { "camera.pose.look_at", TYPE_MAPPING, .presence = ONE_OF },
-    { "camera.pose.look_at.position_m", TYPE_NUMBERS, "m", .presence = REQUIRED, COUNT(3) },
-    { "camera.pose.look_at.target_m", TYPE_NUMBERS, "m", .presence = REQUIRED, COUNT(3) },
-    { "camera.pose.look_at.up", TYPE_NUMBERS, COUNT(3) },
-    { "camera.pose.look_at.roll_deg", TYPE_NUMBER, "deg", .preset = "0", LIMITS(-180, 180) },
+    { "camera", TYPE_MAPPING, .presence = OPTIONAL },
+    LENS("camera."),
+    POSE("camera.pose"),
+
+    { "shots", TYPE_ITEMS, .presence = ONE_OF, .count_min = 1 },
+    { "shots[].photograph", TYPE_FILE, .presence = OPTIONAL },
+    { "shots[].camera", TYPE_TEXT, .presence = REQUIRED },
+    { "shots[].time", TYPE_TIME, .presence = OPTIONAL },
+    POSE("shots[].pose"),
+    { "shots[].semantic", TYPE_FILE, .presence = OPTIONAL },
+    { "shots[].depth", TYPE_FILE, .presence = OPTIONAL },
+    { "cameras", TYPE_NAMED, .preset = "{}" },
+    LENS("cameras.NAME."),
 
     { "place", TYPE_MAPPING, .presence = OPTIONAL },
     { "place.latitude_deg", TYPE_NUMBER, "deg", .presence = REQUIRED, LIMITS(-90, 90) },
@@ -86,20 +115,44 @@ static const struct schema_key keys[] = {
     { "light.sun.azimuth_deg", TYPE_NUMBER, "deg", .presence = REQUIRED, LIMITS(-360, 360) },
     { "light.sun.elevation_deg", TYPE_NUMBER, "deg", .presence = REQUIRED, ABOVE(0, 90) },
     { "light.sun_scale", TYPE_NUMBER, .preset = "1", LIMITS(0, INFINITY) },
+    { "light.fill", TYPE_NUMBER, .preset = "0", LIMITS(0, 1) },
 
-    { "ground", TYPE_MAPPING, .presence = REQUIRED },
-    { "ground.height_m", TYPE_NUMBER, "m", .presence = ONE_OF },
-    { "ground.plane", TYPE_NUMBERS, "m", .presence = ONE_OF, COUNT(4) },
-    { "ground.points_m", TYPE_ROWS, "m", .presence = ONE_OF, .count_min = 3, .columns = 3 },
+    { "ground", TYPE_MAPPING, SECTION },
+    { "ground.height_m", TYPE_NUMBER, "m", .presence = AT_MOST_ONE_OF },
+    { "ground.plane", TYPE_NUMBERS, "m", .presence = AT_MOST_ONE_OF, COUNT(4) },
+    { "ground.points_m", TYPE_ROWS, "m", .presence = AT_MOST_ONE_OF, .count_min = 3, .columns = 3 },
     { "ground.albedo", TYPE_NUMBER | TYPE_NUMBERS | TYPE_COLOR, .preset = "0.2", COUNT(3), LIMITS(0, 1) },
     { "ground.reflection", TYPE_NUMBER, .preset = "0", LIMITS(0, 1) },
 
+    { "static", TYPE_MAPPING, .presence = OPTIONAL },
+    { "static.mesh", TYPE_FILE, .presence = REQUIRED },
+    { "static.world_from_mesh", TYPE_MAPPING, SECTION },
+    { "static.world_from_mesh.scale", TYPE_NUMBER, .preset = "1", ABOVE(0, INFINITY) },
+    { "static.world_from_mesh.quaternion_wxyz", TYPE_NUMBERS, .preset = "[1, 0, 0, 0]", COUNT(4) },
+    { "static.world_from_mesh.translation_m", TYPE_NUMBERS, "m", .preset = "[0, 0, 0]", COUNT(3) },
+    { "static.detail_m", TYPE_NUMBER, "m", .preset = "0.2", ABOVE(0, 100) },
+
+    { "roads", TYPE_MAPPING, .presence = OPTIONAL },
+    { "roads.osm", TYPE_FILE, .presence = REQUIRED },
+    { "roads.driving_side", TYPE_CHOICE, .preset = "right", .choice = driving_side_name },
+    { "roads.sidewalk_m", TYPE_NUMBER, "m", .preset = "1.8", LIMITS(0, 20) },
+    { "paths", TYPE_ITEMS, .preset = "[]" },
+    { "paths[].name", TYPE_TEXT, .presence = REQUIRED, .count_max = 120 },
+    { "paths[].use", TYPE_CHOICE, .presence = REQUIRED, .choice = road_use_name },
+    { "paths[].width_m", TYPE_NUMBER, "m", .presence = REQUIRED, ABOVE(0, 100) },
+    { "paths[].oneway", TYPE_BOOLEAN, .preset = "false" },
+    { "paths[].points_m", TYPE_ROWS, "m", .presence = ONE_OF, .count_min = 2, .columns = 2 },
+    { "paths[].lat_lon_deg", TYPE_ROWS, "deg", .presence = ONE_OF, .count_min = 2, .columns = 2 },
+    { "paths[].points_px", TYPE_ROWS, "px", .presence = ONE_OF, .count_min = 2, .columns = 2 },
+    { "paths[].shot", TYPE_INTEGER, .preset = "0", LIMITS(0, FRAME_MAX) },
+
     { "exposure", TYPE_MAPPING, .presence = REQUIRED },
+    { "exposure.roads", TYPE_BOOLEAN, .presence = ONE_OF },
     { "exposure.patch_px", TYPE_INTEGERS, "px", .presence = ONE_OF, COUNT(4), LIMITS(0, PIXELS_MAX) },
     { "exposure.value", TYPE_NUMBER, .presence = ONE_OF, ABOVE(0, INFINITY) },
     { "exposure.white_balance", TYPE_BOOLEAN, .preset = "true" },
 
-    { "models", TYPE_NAMED, .presence = REQUIRED },
+    { "models", TYPE_NAMED, .preset = "{}" },
     { "models.NAME.file", TYPE_FILE, .presence = REQUIRED },
     { "models.NAME.unit_m", TYPE_NUMBER, "m", .presence = AT_MOST_ONE_OF, ABOVE(0, 1000) },
     { "models.NAME.length_m", TYPE_NUMBER, "m", .presence = AT_MOST_ONE_OF, ABOVE(0, 1000) },
@@ -110,22 +163,40 @@ static const struct schema_key keys[] = {
     { "materials", TYPE_MAPPING, SECTION },
     { "materials.rules", TYPE_FILE, .presence = OPTIONAL },
 
-    { "entities", TYPE_ITEMS, .presence = REQUIRED },
+    { "entities", TYPE_ITEMS, .preset = "[]" },
     { "entities[].name", TYPE_TEXT, .presence = REQUIRED, .count_max = 120 },
     { "entities[].model", TYPE_TEXT, .presence = REQUIRED },
     { "entities[].class", TYPE_CHOICE, .choice = class_choice_name },
-    { "entities[].at", TYPE_MAPPING, .presence = REQUIRED },
+    { "entities[].at", TYPE_MAPPING, .presence = ONE_OF },
     { "entities[].at.world_m", TYPE_NUMBERS, "m", .presence = ONE_OF, COUNT(2) },
     { "entities[].at.pixel", TYPE_NUMBERS, "px", .presence = ONE_OF, COUNT(2), LIMITS(0, PIXELS_MAX) },
     { "entities[].at.latitude_deg", TYPE_NUMBER, "deg", .presence = ONE_OF, LIMITS(-90, 90) },
     { "entities[].at.longitude_deg", TYPE_NUMBER, "deg", LIMITS(-180, 180) },
-    { "entities[].heading_deg", TYPE_NUMBER, "deg", .presence = REQUIRED, LIMITS(-360, 360) },
+    { "entities[].at.shot", TYPE_INTEGER, .preset = "0", LIMITS(0, FRAME_MAX) },
+    { "entities[].heading_deg", TYPE_NUMBER, "deg", LIMITS(-360, 360) },
+    { "entities[].path", TYPE_TEXT, .presence = ONE_OF },
+    { "entities[].start_m", TYPE_NUMBER, "m", LIMITS(0, INFINITY) },
+    { "entities[].offset_m", TYPE_NUMBER, "m", LIMITS(-100, 100) },
+    { "entities[].speed_m_s", TYPE_NUMBER, "m/s", LIMITS(-100, 100) },
     { "entities[].color", TYPE_COLOR | TYPE_NUMBERS, COUNT(3), LIMITS(0, 1) },
 
     { "occluders", TYPE_ITEMS, .preset = "[]" },
     { "occluders[].name", TYPE_TEXT, .presence = REQUIRED, .count_max = 120 },
     { "occluders[].polygon_px", TYPE_ROWS, "px", .presence = REQUIRED, .count_min = 3, .columns = 2 },
     { "occluders[].ground_px", TYPE_NUMBERS, "px", .presence = REQUIRED, COUNT(2) },
+
+    { "traffic", TYPE_MAPPING, SECTION },
+    MOVERS("traffic.vehicles", "8"),
+    MOVERS("traffic.people", "1.4"),
+
+    { "weather", TYPE_MAPPING, .presence = OPTIONAL },
+    { "weather.visibility_m", TYPE_NUMBER, "m", .presence = REQUIRED, ABOVE(0, INFINITY) },
+    { "weather.haze", TYPE_COLOR | TYPE_NUMBERS, .presence = REQUIRED, COUNT(3), LIMITS(0, 1) },
+    { "lens", TYPE_MAPPING, SECTION },
+    { "lens.exposure_s", TYPE_NUMBER, "s", .preset = "0", LIMITS(0, 10) },
+    { "lens.defocus_px", TYPE_NUMBER, "px", .preset = "0", LIMITS(0, 500) },
+    { "lens.focus_m", TYPE_NUMBER, "m", ABOVE(0, INFINITY) },
+    { "lens.softness_px", TYPE_NUMBER, "px", .preset = "0", LIMITS(0, 100) },
 
     { "transfer", TYPE_MAPPING, SECTION },
     { "transfer.method", TYPE_CHOICE, .preset = "layers", .choice = transfer_name },
@@ -135,6 +206,7 @@ static const struct schema_key keys[] = {
     { "transfer.overwrite", TYPE_CHOICE, .preset = "above", .choice = overwrite_name },
     { "labels", TYPE_MAPPING, SECTION },
     { "labels.mask", TYPE_CHOICE, .preset = "traced", .choice = mask_name },
+    { "labels.palette", TYPE_CHOICE, .preset = "cityscapes", .choice = palette_name },
     { "quality", TYPE_CHOICE, .preset = "standard", .choice = quality_name },
     { "seed", TYPE_INTEGER, .preset = "0", LIMITS(0, 2147483647) },
 };

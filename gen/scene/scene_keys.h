@@ -21,6 +21,8 @@ const char *transfer_name(int i);       /* enum transfer_kind */
 const char *overwrite_name(int i);      /* enum overwrite_side */
 const char *mask_name(int i);           /* enum mask_rule */
 const char *quality_name(int i);        /* enum quality */
+const char *driving_side_name(int i);   /* enum driving_side */
+const char *road_use_name(int i);       /* enum road_use */
 
 /* Axes of a camera's coordinates in other people's files. */
 enum camera_axes { CAMERA_AXES_OPENCV, CAMERA_AXES_OPENGL, CAMERA_AXES_X_LEFT_Y_UP };

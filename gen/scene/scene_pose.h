@@ -8,7 +8,7 @@
 
 #include <stdbool.h>
 
-/* In:  pose is `camera.pose` of a tree that fits the scene schema; file is for errors
+/* In:  pose is `camera.pose`, or that of a shot, of a tree that fits the scene schema; file is for errors
  * Err: ERR_INPUT: no rotation, one that mirrors with the stated axes, a view straight up or down without up */
 bool scene_pose(struct pose *world_from_camera, const struct yaml_node *pose, const char *file, struct error *err);
 

@@ -200,11 +200,13 @@ static bool check_item(const struct check *c, const struct schema_key *key, cons
 {
     unsigned types = key->types;
     struct where where = where_item(list, i);
+    double color[3];
     if (types & TYPE_ROWS) return check_row(c, key, list, i, item);
     if (types & TYPE_NUMBERS)
         return good_number(key, item) || unexpected_item(c, key, TYPE_NUMBER, list, i, item);
     if (types & TYPE_INTEGERS)
         return good_integer(key, item) || unexpected_item(c, key, TYPE_INTEGER, list, i, item);
+    if (types & TYPE_COLORS) return schema_color(color, item) || unexpected_item(c, key, TYPE_COLOR, list, i, item);
     if (item->kind != YAML_SCALAR || yaml_is_null(item) || !*item->text)
         return unexpected_item(c, key, types & TYPE_FILES ? TYPE_FILE : TYPE_CHOICE, list, i, item);
     if (types & TYPE_FILES) return check_file(c, &where, item);
@@ -216,7 +218,7 @@ static bool check_mapping(const struct check *c, const struct where *where, cons
 static bool check_sequence(const struct check *c, const struct schema_key *key, const struct where *where,
                            const struct yaml_node *node)
 {
-    if (!(key->types & (TYPE_ITEMS | TYPE_NUMBERS | TYPE_INTEGERS | TYPE_CHOICES | TYPE_FILES | TYPE_ROWS)) ||
+    if (!(key->types & (TYPE_ITEMS | TYPE_NUMBERS | TYPE_INTEGERS | TYPE_CHOICES | TYPE_FILES | TYPE_COLORS | TYPE_ROWS)) ||
         !good_count(key, node->count))
         return unexpected(c, key, where, node);
     for (size_t i = 0; i < node->count; i++) {

@@ -27,7 +27,8 @@ enum schema_type {
     TYPE_INTEGERS = 1 << 13,
     TYPE_CHOICES = 1 << 14,
     TYPE_FILES = 1 << 15,
-    TYPE_ROWS = 1 << 16     /* list of lists of `columns` numbers */
+    TYPE_COLORS = 1 << 16,  /* "#rrggbb" each */
+    TYPE_ROWS = 1 << 17     /* list of lists of `columns` numbers */
 };
 
 enum schema_presence {

@@ -94,6 +94,7 @@ static void add_type(struct words *w, const struct schema_key *key, enum schema_
         add_choices(w, key);
         break;
     case TYPE_FILES: add_list(w, key->count_min, key->count_max, "files"); break;
+    case TYPE_COLORS: add_list(w, key->count_min, key->count_max, "\"#rrggbb\""); break;
     case TYPE_ROWS:
         snprintf(of, sizeof of, "lists of %d numbers", key->columns);
         add_list(w, key->count_min, key->count_max, of);

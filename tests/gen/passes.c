@@ -116,12 +116,12 @@ int main(void)
     struct scene scene = {
         .path = "scene.yaml", .sky = SKY_CLEAR, .sun = SUN_GIVEN, .sun_azimuth_rad = 1, .sun_elevation_rad = 0.8,
         .turbidity = 3, .sun_scale = 1, .ground = { { 0, 0, 1 }, 0 }, .ground_albedo = { 0.22, 0.2, 0.18 },
-        .camera = { .model = CAMERA_PINHOLE, .width_px = 200, .height_px = 150, .params = { 180, 180, 93, 80 } },
         .quality = QUALITY_STANDARD,
     };
+    const struct camera camera = { .model = CAMERA_PINHOLE, .width_px = 200, .height_px = 150, .params = { 180, 180, 93, 80 } };
     struct vec3 eye = { -4, -5, 4 }, ahead = vec3_unit(vec3_sub(vec3(0, 0, 0.3), eye));
     struct vec3 right = vec3_unit(vec3_cross(ahead, vec3(0, 0, 1)));
-    scene.world_from_camera = (struct pose){ mat3_from_columns(right, vec3_cross(ahead, right), ahead), eye };
+    const struct pose world_from_camera = { mat3_from_columns(right, vec3_cross(ahead, right), ahead), eye };
     struct entity entity = { .id = 1, .name = "box", .model_name = "box", .class_ = CLASS_OTHER, .model = &model,
                              .world_from_entity = entity_stand(&scene.ground, vec3(0, 0, 0), 0.4) };
     char out[] = "passes.XXXXXX", sky_map[SKY_MAP_SIZE];
@@ -138,8 +138,8 @@ int main(void)
         if (!OK(light_create(&light, &scene, &err) && sky_map_write(sky_map, out, &light, &err) &&
                 receiver_create(&receiver, &entity, &scene.ground, &light, &err), "%s: light and receivers", name))
             return tap_done();
-        struct passes p = { &scene, sky_map, &light, { 0 }, scene.world_from_camera, &entity, &index, 1, &receiver, 1 };
-        OK(view_cover(&p.view, &scene.camera, (struct rect){ 0, 0, 200, 150 }, &err), "%s: a view", name);
+        struct passes p = { &scene, sky_map, &light, { 0 }, world_from_camera, &entity, &index, 1, &receiver, 1 };
+        OK(view_cover(&p.view, &camera, (struct rect){ 0, 0, 200, 150 }, &err), "%s: a view", name);
         if (!OK(render(pass, out, &p), "%s: POV-Ray renders all three passes", name)) return tap_done();
 
         /* The ground's radiance, everywhere in the plane pass. */
@@ -181,8 +181,8 @@ int main(void)
             struct vec3 top = vec3(0, 0, 1), tip;
             plane_intersect(&scene.ground, &tip, top, vec3_scale(light.sun_direction, -1));
             struct vec2 q;
-            struct pose camera_from_world = pose_inverse(scene.world_from_camera);
-            if (OK(camera_project(&scene.camera, &q, pose_apply(camera_from_world, tip), &err), "the shadow is in the picture")) {
+            struct pose camera_from_world = pose_inverse(world_from_camera);
+            if (OK(camera_project(&camera, &q, pose_apply(camera_from_world, tip), &err), "the shadow is in the picture")) {
                 int x = (int)q.x, y = (int)q.y;
                 double ratio = (double)(image_f32(&pass[2], x, y)[1] / image_f32(&pass[1], x, y)[1]);
                 OK(ratio < sky_only + 0.02, "the sun's shadow falls where it should (%.3f < %.3f)", ratio, sky_only);
@@ -192,7 +192,7 @@ int main(void)
         struct tracer *tracer;
         struct frame_labels labels;
         if (OK(tracer_create(&tracer, models, 1, &err) &&
-               trace_frame(&labels, tracer, &(struct trace_input){ .camera = &scene.camera, .world_from_camera = scene.world_from_camera,
+               trace_frame(&labels, tracer, &(struct trace_input){ .camera = &camera, .world_from_camera = world_from_camera,
                                                                    .ground = &scene.ground, .entities = &entity, .entity_count = 1 }, &err),
                "%s: labels traced", name)) {
             int inner;
@@ -217,8 +217,8 @@ int main(void)
     entity.world_from_entity = entity_stand(&scene.ground, vec3(0, 0, 0), 0.4);
     if (OK(light_create(&light, &scene, &err) && sky_map_write(sky_map, out, &light, &err) &&
            receiver_create(&receiver, &entity, &scene.ground, &light, &err), "a slope: light and receivers")) {
-        struct passes p = { &scene, sky_map, &light, { 0 }, scene.world_from_camera, &entity, &index, 1, &receiver, 1 };
-        OK(view_cover(&p.view, &scene.camera, (struct rect){ 0, 0, 200, 150 }, &err), "a slope: a view");
+        struct passes p = { &scene, sky_map, &light, { 0 }, world_from_camera, &entity, &index, 1, &receiver, 1 };
+        OK(view_cover(&p.view, &camera, (struct rect){ 0, 0, 200, 150 }, &err), "a slope: a view");
         if (OK(render(pass, out, &p), "a slope: POV-Ray renders all three passes"))
             for (int y = 0; y < pass[1].height_px; y++)
                 for (int x = 0; x < pass[1].width_px; x++) {

@@ -31,7 +31,7 @@ static struct scene *read_input(const char *name)
 /* A folder with a scene that a test writes, and empty files for it to name. */
 static char folder[] = "scene-test.XXXXXX";
 static const char *const named_files[] = { "street.jpg", "street-wet.jpg", "street.avi", "my.rules", "models/hatchback.obj",
-                                           "models/suv.obj", "models/walker.glb", "scene.yaml" };
+                                           "models/suv.obj", "models/walker.glb", "place.ply", "scene.yaml" };
 enum { NAMED_FILES = sizeof named_files / sizeof *named_files };
 
 static char *folder_path(const char *name)
@@ -92,7 +92,8 @@ static struct scene *read_sections(const char *text, struct error *err)
 {
     char *whole = strdup(text), *path = folder_path("scene.yaml");
     for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
-        if (has_section(text, sections[i].key)) continue;
+        bool replaced = has_section(text, "shots:") && (!strcmp(sections[i].key, "photographs:") || !strcmp(sections[i].key, "camera:"));
+        if (replaced || has_section(text, sections[i].key)) continue;
         char *more = string_format("%s%s", whole, sections[i].text);
         free(whole);
         whole = more;
@@ -108,11 +109,11 @@ static void a_minimal_scene_takes_the_stated_defaults(void)
 {
     struct scene *s = read_input("tests/input/minimal.yaml");
     if (!OK(s, "a scene with only what it must have is read")) return;
-    OK(s->photograph_count == 1 && !s->is_video && s->scale == 1, "one photograph, not reduced");
-    OK(file_exists(s->photographs[0]), "its path is taken from the scene file's folder");
-    OK(s->camera.model == CAMERA_PINHOLE && s->camera.width_px == 64 && s->camera.height_px == 48, "camera model and size");
-    NEAR(s->camera.params[0], 32, 1e-12, "90 degrees over 64 px are a focal length of 32 px");
-    NEAR(s->camera.params[3], 24, 0, "the principal point is the middle");
+    OK(s->shot_count == 1 && !s->video && s->scale == 1, "one photograph, not reduced");
+    OK(file_exists(s->shots[0].photograph), "its path is taken from the scene file's folder");
+    OK(s->cameras[0].camera.model == CAMERA_PINHOLE && s->cameras[0].camera.width_px == 64 && s->cameras[0].camera.height_px == 48, "camera model and size");
+    NEAR(s->cameras[0].camera.params[0], 32, 1e-12, "90 degrees over 64 px are a focal length of 32 px");
+    NEAR(s->cameras[0].camera.params[3], 24, 0, "the principal point is the middle");
     OK(!s->has_place && !s->has_time && s->sun == SUN_NONE && s->north_rad == 0, "an overcast sky needs no place and time");
     NEAR(s->turbidity, 3, 0, "turbidity 3");
     NEAR(s->sun_scale, 1, 0, "sun_scale 1");
@@ -132,9 +133,9 @@ static void a_full_scene_is_read_back(void)
 {
     struct scene *s = read_input("tests/input/full.yaml");
     if (!OK(s, "a scene with every section is read")) return;
-    OK(s->is_video && s->photograph_count == 1 && s->scale == 0.5, "a video, reduced");
-    OK(s->video_frame_count == 5 && s->video_frames[0] == 10 && s->video_frames[4] == 30, "10:31:5 are the frames 10 to 30, the end excluded");
-    OK(s->camera.model == CAMERA_OPENCV && s->camera.params[1] == 1002.5 && s->camera.params[7] == -0.002, "camera parameters");
+    OK(s->video && s->scale == 0.5, "a video, reduced");
+    OK(s->shot_count == 5 && s->shots[0].number == 10 && s->shots[4].number == 30, "10:31:5 are the frames 10 to 30, the end excluded");
+    OK(s->cameras[0].camera.model == CAMERA_OPENCV && s->cameras[0].camera.params[1] == 1002.5 && s->cameras[0].camera.params[7] == -0.002, "camera parameters");
     NEAR(s->place.latitude_rad, 0.70593227, 1e-7, "latitude in radians");
     NEAR(s->place.height_m, 280, 0, "height");
     NEAR(s->north_rad, -M_PI / 6, 1e-15, "north in radians");
@@ -182,7 +183,7 @@ static struct pose read_pose(const char *pose)
     char *text = string_format(CAMERA "%s}}\n", pose);
     struct scene *scene = read_sections(text, &err);
     struct pose read = { .translation = { NAN, NAN, NAN } };
-    if (scene) read = scene->world_from_camera;
+    if (scene) read = scene->shots[0].world_from_camera;
     if (!scene) printf("# %d:%d: %s\n", err.line, err.column, err.text);
     scene_destroy(scene);
     free(text);
@@ -195,6 +196,39 @@ static double vec3_distance(struct vec3 a, struct vec3 b)
 }
 
 /* At 3 m east, 2 m north, 5 m up, level, looking north: told in every way. */
+static void a_flight_is_read(void)
+{
+    struct error err = ERROR_NONE;
+    const char *const text =
+        "place: {latitude_deg: 46.8426, longitude_deg: -91.994}\n"
+        "cameras: {wide: {model: PINHOLE, size_px: [200, 100], horizontal_fov_deg: 90},\n"
+        "          tele: {model: SIMPLE_PINHOLE, size_px: [200, 100], params: [500, 100, 50]}}\n"
+        "shots:\n"
+        "  - {photograph: street.jpg, camera: tele, time: 2016-06-23T23:59:58-05:00, semantic: street-wet.jpg, pose: {look_at: {position_m: [0, 0, 6], target_m: [0, 20, 0]}}}\n"
+        "  - {camera: wide, time: 2016-06-24T00:00:05.5-05:00, pose: {look_at: {position_m: [1, 0, 6], target_m: [0, 20, 0]}}}\n"
+        "static: {mesh: place.ply, world_from_mesh: {scale: 8.3, quaternion_wxyz: [0, 1, 0, 0], translation_m: [1, 2, 3]}}\n"
+        "ground: {albedo: 0.1}\n"
+        "paths: [{name: a, use: vehicles, width_m: 6, points_px: [[20, 80], [150, 80]], shot: 1}]\n"
+        "exposure: {roads: true}\n"
+        "traffic: {vehicles: {count: 3, models: {hatchback: {weight: 2.5}}, colors: [\"#ff0000\"]}}\n"
+        "labels: {palette: uavid}\n";
+    struct scene *s = read_sections(text, &err);
+    if (!OK(s, "a flight is read: %d:%d: %s", err.line, err.column, err.text)) return;
+    OK(s->shot_count == 2 && !s->fixed_camera && s->cameras[s->shots[0].camera].camera.params[0] == 500 &&
+           s->cameras[s->shots[1].camera].camera.model == CAMERA_PINHOLE, "each shot has its lens");
+    OK(s->shots[0].photograph && s->shots[0].semantic && !s->shots[1].photograph, "a shot without a photograph is a new view");
+    OK(s->has_time && s->time_utc.day == 24 && s->time_utc.hour == 4 && s->shots[0].time_s == 0 && s->shots[1].time_s == 7.5,
+       "the first shot's time is the scene's, and midnight is no matter");
+    OK(s->shots[1].world_from_camera.translation.x == 1, "each has its pose");
+    struct vec3 p = similarity_apply(s->static_.world_from_mesh, vec3(1, 1, 1));
+    NEAR(p.x, 9.3, 1e-12, "the mesh is scaled and moved");
+    NEAR(p.z, 3 - 8.3, 1e-12, "and turned");
+    OK(s->path_count == 1 && s->paths[0].shot == 1 && s->paths[0].use == ROAD_VEHICLES, "a path by pixels of a shot");
+    OK(s->vehicles.count == 3 && s->vehicles.weights[0] == 2.5 && s->vehicles.colors[0][0] == 1 && s->people.count == 0, "traffic");
+    OK(s->exposure_of_roads && s->palette == PALETTE_UAVID, "exposure and palette");
+    scene_destroy(s);
+}
+
 static void one_pose_in_many_conventions(void)
 {
     static const struct { const char *name, *pose; } same[] = {
@@ -385,8 +419,20 @@ static void text_is_not_guessed_to_be_something_else(void)
         { "quality: *q\n", "aliases (*name) are not understood here: write the value out" },
         { "? [seed]\n: 1\n", "a key must be plain text" },
         { "quality: high\n\"quality\": draft\n", "key \"quality\" is here for the second time (first in line 1): keep one" },
-        { "seed.x: 1\n", "unknown key \"seed.x\" (known here: staffage, photographs, camera, place, north_deg, time, light, ground, "
-                         "exposure, models, materials, entities, occluders, transfer, labels, quality, seed)" },
+        { "seed.x: 1\n", "unknown key \"seed.x\" (known here: staffage, photographs, camera, shots, cameras, place, north_deg, "
+                         "time, light, ground, static, roads, paths, exposure, models, materials, entities, occluders, "
+                         "traffic, weather, lens, transfer, labels, quality, seed)" },
+        { "photographs: {files: [street.jpg, street-wet.jpg]}\nplace: {latitude_deg: 46, longitude_deg: -92}\n"
+          "paths: [{name: a, use: people, width_m: 2, points_m: [[0, 0], [9, 0]]}]\n"
+          "traffic: {people: {count: 2, models: {hatchback: {}}}}\n",
+          "something moves, and the photographs have no times: give photographs.rate_hz" },
+        { "traffic: {people: {count: 2, models: {hatchback: {}}}}\n",
+          "traffic: there is nowhere to go: give roads (a map) or paths" },
+        { "paths: [{name: a, use: people, width_m: 2, lat_lon_deg: [[46, -92], [46.1, -92]]}]\n",
+          "path \"a\": latitudes need the scene's place" },
+        { "static: {mesh: place.ply}\nground: {height_m: 0}\n",
+          "ground: the static mesh is the ground: only albedo has a meaning here" },
+        { "lens: {focus_m: 3}\n", "lens: defocus_px and focus_m go together" },
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         struct error err = ERROR_NONE;
@@ -414,6 +460,7 @@ int main(void)
     char *manual = read_manual();
     a_minimal_scene_takes_the_stated_defaults();
     a_full_scene_is_read_back();
+    a_flight_is_read();
     one_pose_in_many_conventions();
     the_craig_camera();
     look_at_rolls_and_looks_down();

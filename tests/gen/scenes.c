@@ -67,14 +67,14 @@ static void test_heights(const struct scene *scene)
 {
     double sum_px = 0;
     size_t count = sizeof people / sizeof *people;
-    struct pose camera_from_world = pose_inverse(scene->world_from_camera);
+    struct pose camera_from_world = pose_inverse(scene->shots[0].world_from_camera);
     for (size_t i = 0; i < count; i++) {
         struct error err = ERROR_NONE;
         struct vec3 feet = { 0, 0, 0 };
         struct vec2 head = { NAN, NAN };
-        ground_from_pixel(&feet, &scene->ground, &scene->camera, scene->world_from_camera,
+        ground_from_pixel(&feet, &scene->ground, &scene->cameras[0].camera, scene->shots[0].world_from_camera,
                           (struct vec2){ people[i].x, people[i].y }, &err);
-        camera_project(&scene->camera, &head, pose_apply(camera_from_world, vec3_add(feet, vec3(0, 0, 1.75))), &err);
+        camera_project(&scene->cameras[0].camera, &head, pose_apply(camera_from_world, vec3_add(feet, vec3(0, 0, 1.75))), &err);
         sum_px += people[i].height_px - (people[i].y - head.y);
     }
     NEAR(sum_px / (double)count, 0, 2, "1.75 m where the %zu people stand is their height, on average, in px", count);
@@ -89,21 +89,21 @@ static void test_scene(const char *path, bool heights)
         printf("# %s:%d: %s\n", err.file, err.line, err.text);
         return;
     }
-    struct pose camera_from_world = pose_inverse(scene->world_from_camera);
+    struct pose camera_from_world = pose_inverse(scene->shots[0].world_from_camera);
     size_t seen = 0, standing = 0;
     for (size_t i = 0; i < scene->entity_count; i++) {
         const struct scene_entity *entity = &scene->entities[i];
         struct vec2 q = { entity->at[0], entity->at[1] };
         struct vec3 p = vec3(q.x, q.y, plane_height(&scene->ground, q.x, q.y));
         if (entity->place == PLACE_WORLD &&
-            !camera_project(&scene->camera, &q, pose_apply(camera_from_world, p), &err)) continue;
-        seen += q.x > 0 && q.y > 0 && q.x < scene->camera.width_px && q.y < scene->camera.height_px;
+            !camera_project(&scene->cameras[0].camera, &q, pose_apply(camera_from_world, p), &err)) continue;
+        seen += q.x > 0 && q.y > 0 && q.x < scene->cameras[0].camera.width_px && q.y < scene->cameras[0].camera.height_px;
     }
     OK(scene->entity_count && seen == scene->entity_count, "%s: all %zu entities stand in the picture", name,
        scene->entity_count);
     for (size_t i = 0; i < scene->occluder_count; i++) {
         struct vec3 p;
-        standing += ground_from_pixel(&p, &scene->ground, &scene->camera, scene->world_from_camera,
+        standing += ground_from_pixel(&p, &scene->ground, &scene->cameras[0].camera, scene->shots[0].world_from_camera,
                                       scene->occluders[i].ground_px, &err);
     }
     OK(standing == scene->occluder_count, "%s: all %zu occluders stand on the ground", name, scene->occluder_count);

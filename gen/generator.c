@@ -1,0 +1,298 @@
+#include "gen/generator.h"
+
+#include "gen/render/passes.h"
+#include "lib/file.h"
+#include "lib/image.h"
+#include "lib/manifest.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define DEG (180 / M_PI)
+
+struct generator {
+    const struct scene *scene;
+    const char *out_folder;
+    struct material_rules *rules;
+    struct stage *stage;
+    struct light light;
+    char sky_map[SKY_MAP_SIZE];     /* the light's sky, relative to out_folder */
+    uint64_t video_hash;            /* names the video as it is now: another one's pictures are not taken for its own */
+    int video_width_px, video_height_px;
+    struct tracer *tracer;
+    uint64_t input_hash;            /* of all that every frame depends on */
+};
+
+/* --- what is loaded once --- */
+
+/* Size and time of a file, and a name for it, into a hash. */
+static bool hash_file_state(uint64_t *hash, const char *path, const char *name, struct error *err)
+{
+    struct stat st;
+    if (stat(path, &st) != 0) return error_at(err, ERR_INPUT, path, 0, 0, "does not exist");
+    int64_t seen[3] = { st.st_size, st.st_mtim.tv_sec, st.st_mtim.tv_nsec };
+    *hash = hash_bytes(hash_bytes(*hash, name, strlen(name)), seen, sizeof seen);
+    return true;
+}
+
+static bool open_video(struct generator *g, struct error *err)
+{
+    const struct scene *s = g->scene;
+    int frames = 0, last = s->shots[s->shot_count - 1].number;
+    if (!s->video) return true;
+    if (!video_info(&g->video_width_px, &g->video_height_px, &frames, s->video, err)) return false;
+    if (frames > 0 && last >= frames) /* some do not say */
+        return error_at(err, ERR_INPUT, s->video, 0, 0, "has %d frames, from 0 to %d: frame %d is not there", frames,
+                        frames - 1, last);
+    char *absolute = realpath(s->video, NULL);
+    g->video_hash = FILE_HASH_SEED;
+    bool ok = absolute ? hash_file_state(&g->video_hash, absolute, absolute, err)
+                       : error_at(err, ERR_INPUT, s->video, 0, 0, "does not exist");
+    free(absolute);
+    return ok;
+}
+
+static bool trace_models(struct generator *g, struct error *err)
+{
+    size_t n = 0;
+    const struct model **used = calloc(g->scene->model_count + 1, sizeof *used);
+    if (!used) return error_set(err, ERR_MEMORY, "no memory for the models");
+    for (size_t i = 0; i < g->scene->model_count; i++)
+        if (g->stage->models[i]) used[n++] = g->stage->models[i];
+    bool ok = tracer_create(&g->tracer, used, n, err);
+    free(used);
+    return ok;
+}
+
+/* What a quality means may change from version to version. */
+static uint64_t hash_settings(uint64_t hash, const struct scene *scene)
+{
+    struct pass_settings settings = pass_settings(scene->quality, scene->sky);
+    hash = hash_bytes(hash, PACKAGE_VERSION, sizeof PACKAGE_VERSION);
+    hash = hash_bytes(hash, &scene->hash, sizeof scene->hash);
+    hash = hash_bytes(hash, &scene->quality, sizeof scene->quality);
+    hash = hash_bytes(hash, &scene->seed, sizeof scene->seed);
+    hash = hash_bytes(hash, &settings.sky_lights, sizeof settings.sky_lights);
+    hash = hash_bytes(hash, &settings.radiosity_count, sizeof settings.radiosity_count);
+    hash = hash_bytes(hash, &settings.receiver_reduction, sizeof settings.receiver_reduction);
+    hash = hash_bytes(hash, settings.object_antialias, strlen(settings.object_antialias));
+    return hash_bytes(hash, settings.receiver_antialias, strlen(settings.receiver_antialias));
+}
+
+bool generator_create(struct generator **generator, const struct scene *scene, const char *out_folder,
+                      const char *rules_path, struct error *err)
+{
+    struct generator *g = calloc(1, sizeof *g);
+    if (!g) return error_set(err, ERR_MEMORY, "no memory for the generator");
+    const char *rules = scene->material_rules ? scene->material_rules : rules_path;
+    *g = (struct generator){ .scene = scene, .out_folder = out_folder, .input_hash = hash_settings(FILE_HASH_SEED, scene) };
+    if (!material_rules_read(&g->rules, rules, err) || !file_hash(&g->input_hash, rules, err) || !open_video(g, err) ||
+        !light_create(&g->light, scene, err) || !sky_map_write(g->sky_map, out_folder, &g->light, err) ||
+        !stage_create(&g->stage, scene, g->rules, err) || !trace_models(g, err)) {
+        generator_destroy(g);
+        return false;
+    }
+    g->input_hash = hash_bytes(g->input_hash, &g->stage->hash, sizeof g->stage->hash);
+    *generator = g;
+    return true;
+}
+
+void generator_destroy(struct generator *g)
+{
+    if (!g) return;
+    tracer_destroy(g->tracer);
+    stage_destroy(g->stage);
+    light_release(&g->light);
+    material_rules_destroy(g->rules);
+    free(g);
+}
+
+size_t generator_frame_count(const struct generator *g)
+{
+    return g->scene->shot_count;
+}
+
+void generator_frame_name(char name[FRAME_NAME_SIZE], const struct generator *g, size_t frame)
+{
+    snprintf(name, FRAME_NAME_SIZE, "%06d", g->scene->shots[frame].number);
+}
+
+size_t generator_warning_count(const struct generator *g)
+{
+    return g->stage->warning_count;
+}
+
+const char *generator_warning(const struct generator *g, size_t i)
+{
+    return g->stage->warnings[i];
+}
+
+/* --- photographs --- */
+
+/* The path of a frame's photograph as the manifest names it; the caller frees. */
+static char *photograph_path(const struct generator *g, size_t frame, struct error *err)
+{
+    const char *file = g->scene->shots[frame].photograph;
+    char name[FRAME_NAME_SIZE], *path;
+    generator_frame_name(name, g, frame);
+    if (g->scene->video) path = string_format("frames/video_%016llx/%s.png", (unsigned long long)g->video_hash, name);
+    else path = file ? realpath(file, NULL) : strdup("");
+    if (!path && file) error_at(err, ERR_INPUT, file, 0, 0, "does not exist");
+    else if (!path) error_set(err, ERR_MEMORY, "no memory for a path");
+    if (path && strlen(path) >= sizeof ((struct manifest *)0)->photograph) {
+        error_at(err, ERR_INPUT, path, 0, 0, "the path is too long: %zu bytes are possible",
+                 sizeof ((struct manifest *)0)->photograph - 1);
+        free(path);
+        path = NULL;
+    }
+    return path;
+}
+
+static char *opened_path(const struct generator *g, const char *path)
+{
+    return path[0] == '/' ? strdup(path) : string_format("%s/%s", g->out_folder, path);
+}
+
+bool generator_prepare(struct generator *g, const size_t *frames, size_t n, struct error *err)
+{
+    if (!g->scene->video) return true;
+    int *numbers = calloc(n + 1, sizeof *numbers);
+    char **paths = calloc(n + 1, sizeof *paths);
+    size_t missing = 0;
+    bool ok = numbers && paths;
+    for (size_t i = 0; ok && i < n; i++) {
+        char *named = photograph_path(g, frames[i], err), *path = named ? opened_path(g, named) : NULL;
+        char *folder = path ? path_folder(path) : NULL;
+        ok = folder && folder_make(folder, err);
+        if (ok && !file_exists(path)) {
+            numbers[missing] = g->scene->shots[frames[i]].number;
+            paths[missing++] = path;
+        } else
+            free(path);
+        free(folder);
+        free(named);
+    }
+    if (!ok) error_set(err, ERR_MEMORY, "no memory for the photographs of a video");
+    if (ok && missing) ok = video_extract(g->scene->video, numbers, (const char *const *)paths, missing, err);
+    for (size_t i = 0; i < missing; i++) free(paths[i]);
+    free(paths);
+    free(numbers);
+    return ok;
+}
+
+/* The lens at the size of the photograph, reduced as the scene says. */
+static bool frame_camera(struct camera *camera, const struct generator *g, const struct scene_shot *shot, struct error *err)
+{
+    const struct scene *s = g->scene;
+    const struct scene_camera *given = &s->cameras[shot->camera];
+    int width = given->camera.width_px, height = given->camera.height_px;
+    if (s->video) {
+        width = g->video_width_px;
+        height = g->video_height_px;
+    } else if (shot->photograph && !image_read_size(&width, &height, shot->photograph, err))
+        return false;
+    double across = (double)width / given->camera.width_px, down = (double)height / given->camera.height_px;
+    if (fabs(across - down) > 0.005 * across)
+        return error_at(err, ERR_INPUT, s->path, given->source.line, given->source.column,
+                        "camera: the calibration is for %d x %d pixels, but %s has %d x %d: another shape; "
+                        "size_px must be the size that params were calibrated at", given->camera.width_px,
+                        given->camera.height_px, s->video ? s->video : shot->photograph, width, height);
+    *camera = camera_scaled(&given->camera, (int)lround(width * s->scale), (int)lround(height * s->scale));
+    return true;
+}
+
+/* --- frames --- */
+
+/* Everything that a frame's files depend on, as 16 hex digits. */
+static bool frame_key(char key[17], const struct generator *g, const struct scene_shot *shot, const char *photograph,
+                      struct error *err)
+{
+    uint64_t hash = hash_bytes(g->input_hash, &shot->number, sizeof shot->number);
+    char *path = opened_path(g, photograph);
+    bool ok = path ? !photograph[0] || hash_file_state(&hash, path, photograph, err)
+                   : error_set(err, ERR_MEMORY, "no memory for a path");
+    ok = ok && (!shot->semantic || hash_file_state(&hash, shot->semantic, shot->semantic, err)) &&
+         (!shot->depth || hash_file_state(&hash, shot->depth, shot->depth, err));
+    free(path);
+    if (ok) snprintf(key, 17, "%016llx", (unsigned long long)hash);
+    return ok;
+}
+
+static bool already_there(struct frame_result *result, const char *manifest_path, const char *key)
+{
+    struct manifest old;
+    struct error ignored = ERROR_NONE;
+    if (!file_exists(manifest_path) || !manifest_read(&old, manifest_path, &ignored)) return false;
+    bool same = !strcmp(old.key, key);
+    if (same) {
+        result->kept = true;
+        result->empty = old.empty;
+        result->view = old.view;
+        result->receiver_reduction = old.receiver_reduction;
+    }
+    manifest_release(&old);
+    return same;
+}
+
+bool generator_frame(struct frame_result *result, struct generator *g, size_t frame, struct error *err)
+{
+    const struct scene_shot *shot = &g->scene->shots[frame];
+    struct frame_context context = { g->scene, g->out_folder, g->stage, &g->light, g->sky_map, g->tracer };
+    struct frame_result made = { 0 };
+    struct camera camera;
+    generator_frame_name(made.name, g, frame);
+    char *folder = string_format("%s/frames/%s", g->out_folder, made.name);
+    char *manifest = folder ? string_format("%s/frame.json", folder) : NULL;
+    char *photograph = photograph_path(g, frame, err), key[17];
+    bool ok = false;
+    if (!folder || !manifest || !photograph) {
+        error_set(err, ERR_MEMORY, "no memory for a path");
+        goto out;
+    }
+    if (!folder_make(folder, err) || !frame_key(key, g, shot, photograph, err)) goto out;
+    ok = already_there(&made, manifest, key);
+    if (!ok) {
+        /* Stopped halfway, the files are of two inputs: no manifest may then speak for them. */
+        unlink(manifest);
+        ok = frame_camera(&camera, g, shot, err) &&
+             frame_make(&made, &context, shot, &camera, folder, photograph, key, err);
+    }
+    if (ok) *result = made;
+out:
+    free(photograph);
+    free(manifest);
+    free(folder);
+    return ok;
+}
+
+bool generator_write_run(const struct generator *g, const struct frame_result *frames, size_t n, struct error *err)
+{
+    static const char *const qualities[] = { "draft", "standard", "high" };
+    const struct scene *s = g->scene;
+    char hash[17], *path = string_format("%s/run.json", g->out_folder);
+    snprintf(hash, sizeof hash, "%016llx", (unsigned long long)s->hash);
+    json_t *names = json_array();
+    for (size_t i = 0; i < n; i++) json_array_append_new(names, json_string(frames[i].name));
+    json_t *run = json_pack("{s:s, s:s, s:s, s:s, s:i, s:[fff], s:o}", "version", PACKAGE_VERSION, "scene", s->path,
+                            "scene_hash", hash, "quality", qualities[s->quality], "seed", s->seed,
+                            "ground_irradiance_over_pi", g->light.irradiance[0], g->light.irradiance[1],
+                            g->light.irradiance[2], "frames", names);
+    if (run && g->light.has_sun) {
+        struct vec3 d = g->light.sun_direction;
+        json_object_set_new(run, "sun_direction", json_pack("[fff]", d.x, d.y, d.z));
+        json_object_set_new(run, "sun_elevation_deg", json_real(asin(d.z) * DEG));
+        json_object_set_new(run, "sun_azimuth_deg", json_real(fmod((atan2(d.x, d.y) + s->north_rad) * DEG + 720, 360)));
+    }
+    char *text = run ? json_dumps(run, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) : NULL;
+    bool ok = path && text ? file_write_if_changed(path, text, strlen(text), err)
+                           : error_set(err, ERR_MEMORY, "no memory for run.json");
+    free(text);
+    json_decref(run);
+    free(path);
+    return ok;
+}

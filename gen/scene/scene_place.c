@@ -1,0 +1,157 @@
+#include "gen/scene/scene_keys.h"
+#include "gen/scene/scene_read.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define STEEPEST_COS 0.5   /* ground of more than 60 deg is a mistake; plane_fit's rule */
+
+static bool read_overcast(const struct reading *r, const struct yaml_node *node)
+{
+    static const char *const of_clear[] = { "turbidity", "sun_scale", NULL };
+    const struct yaml_node *sun = yaml_get(node, "sun");
+    r->scene->sun = SUN_NONE;
+    if (sun->kind == YAML_MAPPING)
+        return FAIL(r, sun, "light.sun: an overcast sky shows no sun: remove it, or use \"sky: clear\"");
+    return scene_refuse_given(r, node, of_clear, "light",
+                        "has no meaning under an overcast sky: remove it, or use \"sky: clear\"");
+}
+
+static bool read_clear(const struct reading *r, const struct yaml_node *node)
+{
+    struct scene *scene = r->scene;
+    const struct yaml_node *sun = yaml_get(node, "sun");
+    if (sun->kind == YAML_MAPPING) {
+        scene->sun = SUN_GIVEN;
+        scene->sun_azimuth_rad = rad_from_deg(number_at(sun, "azimuth_deg"));
+        scene->sun_elevation_rad = rad_from_deg(number_at(sun, "elevation_deg"));
+        return true;
+    }
+    /* How bright a clear sky is, and where, follows from the sun. */
+    if (!strcmp(sun->text, "none"))
+        return FAIL(r, sun,
+                    "light.sun: a clear sky has its light from the sun: \"sun_scale: 0\" takes the sun itself away, "
+                    "\"sky: overcast\" needs none");
+    if (!scene->has_place || !scene->has_time)
+        return FAIL(r, yaml_get(node, "sky"),
+                    "light: a clear sky needs its sun, and %s missing: give place and time, or light.sun as "
+                    "{azimuth_deg, elevation_deg}",
+                    scene->has_place ? "time is" : scene->has_time ? "place is" : "place and time are");
+    scene->sun = SUN_BY_TIME;
+    return true;
+}
+
+bool scene_read_light(const struct reading *r, const struct yaml_node *node)
+{
+    struct scene *scene = r->scene;
+    scene->sky = (enum sky_kind)schema_choice(sky_name, yaml_get(node, "sky"));
+    scene->turbidity = number_at(node, "turbidity");
+    scene->sun_scale = number_at(node, "sun_scale");
+    scene->fill = number_at(node, "fill");
+    scene->sun_source = source_of(yaml_get(node, "sun"));
+    return scene->sky == SKY_CLEAR ? read_clear(r, node) : read_overcast(r, node);
+}
+
+static bool read_points(const struct reading *r, const struct yaml_node *node)
+{
+    struct vec3 *points = calloc(node->count, sizeof *points);
+    if (!points) return out_of_memory(r);
+    for (size_t i = 0; i < node->count; i++) {
+        double p[3];
+        schema_numbers(p, 3, node->items[i]);
+        points[i] = vec3(p[0], p[1], p[2]);
+    }
+    double rms_m;
+    struct error why = ERROR_NONE;
+    bool fits = plane_fit(&r->scene->ground, &rms_m, points, node->count, &why);
+    free(points);
+    return fits || FAIL(r, node, "ground.points_m: %s", why.text);
+}
+
+bool scene_read_static(const struct reading *r, const struct yaml_node *root)
+{
+    struct scene *scene = r->scene;
+    const struct yaml_node *node = yaml_get(root, "static");
+    if (!node) return true;
+    const struct yaml_node *at = yaml_get(node, "world_from_mesh"), *quaternion = yaml_get(at, "quaternion_wxyz");
+    double q[4], t[3];
+    schema_numbers(q, 4, quaternion);
+    schema_numbers(t, 3, yaml_get(at, "translation_m"));
+    double norm = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (fabs(norm - 1) > 0.01)
+        return FAIL(r, quaternion, "static.world_from_mesh.quaternion_wxyz: has norm %.6g, a rotation has 1", norm);
+    scene->static_.source = source_of(node);
+    scene->static_.detail_m = number_at(node, "detail_m");
+    scene->static_.world_from_mesh =
+        (struct similarity){ number_at(at, "scale"), mat3_from_quat((struct quat){ q[0], q[1], q[2], q[3] }), vec3(t[0], t[1], t[2]) };
+    return scene_copy_path(r, &scene->static_.mesh, yaml_get(node, "mesh"));
+}
+
+bool scene_read_ground(const struct reading *r, const struct yaml_node *node)
+{
+    struct scene *scene = r->scene;
+    const struct yaml_node *plane = yaml_get(node, "plane"), *points = yaml_get(node, "points_m");
+    scene_read_color(scene->ground_albedo, yaml_get(node, "albedo"));
+    scene->ground_reflection = number_at(node, "reflection");
+    if (scene->static_.mesh) {
+        const struct yaml_node *other = points ? points : plane ? plane : yaml_get(node, "height_m");
+        if (other) return FAIL(r, other, "ground: the static mesh is the ground: only albedo has a meaning here");
+        if (scene->ground_reflection > 0)
+            return FAIL(r, yaml_get(node, "reflection"), "ground.reflection: goes with a plane, not with a static mesh");
+        scene->ground = (struct plane){ vec3(0, 0, 1), 0 };
+        return true;
+    }
+    if (points) return read_points(r, points);
+    if (!plane && !yaml_get(node, "height_m"))
+        return FAIL(r, node, "ground: one of height_m, plane, points_m is missing (or a static mesh is)");
+    double p[4] = { 0, 0, 1, 0 };
+    if (plane)
+        schema_numbers(p, 4, plane);
+    else
+        p[3] = number_at(node, "height_m");
+    struct vec3 normal = vec3(p[0], p[1], p[2]);
+    double norm = vec3_norm(normal);
+    if (!(norm > 0)) return FAIL(r, plane, "ground.plane: the normal [nx, ny, nz] has no direction");
+    if (normal.z < 0) norm = -norm; /* the same plane, its normal upward */
+    if (normal.z / norm < STEEPEST_COS)
+        return FAIL(r, plane, "ground.plane: steeper than 60 degrees; z is up, level ground is [0, 0, 1, height]");
+    scene->ground = (struct plane){ vec3_scale(normal, 1 / norm), p[3] / norm };
+    return true;
+}
+
+bool scene_read_exposure(const struct reading *r, const struct yaml_node *node)
+{
+    struct scene *scene = r->scene;
+    const struct yaml_node *value = yaml_get(node, "value"), *patch = yaml_get(node, "patch_px");
+    const struct yaml_node *balance = yaml_get(node, "white_balance"), *roads = yaml_get(node, "roads");
+    scene->exposure_source = source_of(patch ? patch : value ? value : roads);
+    yaml_boolean(&scene->white_balance, balance);
+    scene->exposure_given = value != NULL;
+    if (value) {
+        if (!balance->is_default)
+            return FAIL(r, balance, "exposure.white_balance: is fitted to a patch: it has no meaning with value");
+        scene->exposure = schema_number(value);
+        scene->white_balance = false;
+        return true;
+    }
+    if (roads) {
+        yaml_boolean(&scene->exposure_of_roads, roads);
+        if (!scene->exposure_of_roads) return FAIL(r, roads, "exposure.roads: only true has a meaning: else give patch_px or value");
+        if (!scene->osm && !scene->path_count) return FAIL(r, roads, "exposure.roads: there are no roads and no paths");
+        return true;
+    }
+    double p[4];
+    schema_numbers(p, 4, patch);
+    if (!scene->fixed_camera && scene->shot_count > 1)
+        return FAIL(r, patch, "exposure.patch_px: one patch does not lie in every shot: use \"roads: true\" or value");
+    const struct camera *camera = &scene->cameras[scene->shots[0].camera].camera;
+    if (!(p[0] < p[2] && p[1] < p[3]))
+        return FAIL(r, patch, "exposure.patch_px: empty: the order is [left, top, right, bottom]");
+    if (p[2] > camera->width_px || p[3] > camera->height_px)
+        return FAIL(r, patch, "exposure.patch_px: reaches out of the picture of %dx%d px (camera.size_px)",
+                    camera->width_px, camera->height_px);
+    scene->exposure_patch_px[0] = (struct vec2){ p[0], p[1] };
+    scene->exposure_patch_px[1] = (struct vec2){ p[2], p[3] };
+    return true;
+}
+

@@ -1,0 +1,52 @@
+/* What the readers of a scene's sections share. Each reads its part of a tree that fits the schema and
+ * returns false with the error set. */
+#ifndef STAFFAGE_GEN_SCENE_READ_H
+#define STAFFAGE_GEN_SCENE_READ_H
+
+#include "gen/scene/scene.h"
+#include "gen/scene/schema.h"
+#include "gen/scene/yaml.h"
+#include "lib/error.h"
+
+struct reading { struct scene *scene; const char *path; const struct yaml_node *root; struct error *err; };
+
+#define FAIL(r, node, ...) \
+    error_at((r)->err, ERR_INPUT, (r)->path, (node)->line, (node)->column, __VA_ARGS__)
+
+static inline double rad_from_deg(double deg) { return deg * M_PI / 180; }
+static inline struct source source_of(const struct yaml_node *node) { return (struct source){ node->line, node->column }; }
+static inline bool out_of_memory(const struct reading *r) { return error_set(r->err, ERR_MEMORY, "no memory for a scene"); }
+static inline double number_at(const struct yaml_node *mapping, const char *key)
+{
+    return schema_number(yaml_get(mapping, key));
+}
+
+bool scene_copy_text(const struct reading *r, char **text, const struct yaml_node *node);
+/* Resolved against the scene file. */
+bool scene_copy_path(const struct reading *r, char **path, const struct yaml_node *node);
+/* "#rrggbb", three linear numbers, or one for all. */
+void scene_read_color(double linear[3], const struct yaml_node *node);
+/* A key that the user gave and that nothing would come of is a misunderstanding. In: keys, NULL at the end */
+bool scene_refuse_given(const struct reading *r, const struct yaml_node *mapping, const char *const *keys,
+                        const char *section, const char *why);
+
+/* After place and time: photographs and camera, or cameras and shots. */
+bool scene_read_shots(const struct reading *r, const struct yaml_node *root);
+bool scene_read_light(const struct reading *r, const struct yaml_node *node);
+bool scene_read_static(const struct reading *r, const struct yaml_node *root);
+bool scene_read_ground(const struct reading *r, const struct yaml_node *node);
+bool scene_read_exposure(const struct reading *r, const struct yaml_node *node);
+/* Models first, then entities and occluders; traffic needs models, too. */
+bool scene_read_models(const struct reading *r, const struct yaml_node *node);
+bool scene_read_entities(const struct reading *r, const struct yaml_node *node);
+bool scene_read_occluders(const struct reading *r, const struct yaml_node *node);
+bool scene_read_roads(const struct reading *r, const struct yaml_node *root);
+bool scene_read_traffic(const struct reading *r, const struct yaml_node *node);
+/* Find a model by its name. In: who wants it, for the error */
+bool scene_find_model(const struct reading *r, size_t *index, const char *name, const struct yaml_node *node,
+                      const char *who);
+/* Does a pixel position lie in the picture of a shot? In: who, for the error */
+bool scene_check_pixel(const struct reading *r, struct vec2 q_px, size_t shot, const struct yaml_node *node,
+                       const char *who);
+
+#endif
