@@ -252,9 +252,13 @@ void fill(gltf *out, const tinygltf::Model &model)
         const tinygltf::Animation &animation = model.animations[0];
         std::vector<gltf_channel> channels;
         for (const auto &from : animation.channels) {
-            if (from.sampler < 0 || (size_t)from.sampler >= animation.samplers.size()) continue;
-            const auto &sampler = animation.samplers[(size_t)from.sampler];
-            gltf_channel to = { from.target_node, sampler.input, sampler.output, GLTF_TRANSLATION, sampler.interpolation == "CUBICSPLINE" };
+            gltf_channel to = { from.target_node, -1, -1, GLTF_TRANSLATION, GLTF_LINEAR };
+            if (from.sampler >= 0 && (size_t)from.sampler < animation.samplers.size()) {
+                const auto &sampler = animation.samplers[(size_t)from.sampler];
+                to.input = sampler.input;
+                to.output = sampler.output;
+                to.interpolation = sampler.interpolation == "CUBICSPLINE" ? GLTF_CUBIC : sampler.interpolation == "STEP" ? GLTF_STEP : GLTF_LINEAR;
+            }
             if (from.target_path == "rotation") to.path = GLTF_ROTATION;
             else if (from.target_path == "scale") to.path = GLTF_SCALE;
             else if (from.target_path != "translation") continue;

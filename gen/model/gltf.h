@@ -44,7 +44,8 @@ struct gltf_node {
 };
 struct gltf_skin { int inverse_bind, *joints; size_t joint_count; };
 enum gltf_path { GLTF_TRANSLATION, GLTF_ROTATION, GLTF_SCALE };
-struct gltf_channel { int node, input, output; enum gltf_path path; bool cubic; };
+enum gltf_interpolation { GLTF_STEP, GLTF_LINEAR, GLTF_CUBIC };
+struct gltf_channel { int node, input, output; enum gltf_path path; enum gltf_interpolation interpolation; };
 struct gltf_image { char *uri; uint8_t *data; size_t size; int view; }; /* one of the three */
 struct gltf_texture { int image, wrap_u, wrap_v; };
 struct gltf_texture_use { int texture, uv_set; double offset[2], rotation_rad, scale[2]; };

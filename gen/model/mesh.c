@@ -30,6 +30,7 @@ void mesh_release(struct mesh *mesh)
     free(mesh->normal);
     free(mesh->uv);
     free(mesh->triangle);
+    free(mesh->source);
     *mesh = (struct mesh){ 0 };
 }
 
@@ -88,6 +89,7 @@ static bool drop_unused(struct mesh *mesh, struct error *err)
         memmove(mesh->position_m[kept], mesh->position_m[i], sizeof *mesh->position_m);
         if (mesh->normal) memmove(mesh->normal[kept], mesh->normal[i], sizeof *mesh->normal);
         if (mesh->uv) memmove(mesh->uv[kept], mesh->uv[i], sizeof *mesh->uv);
+        if (mesh->source) mesh->source[kept] = mesh->source[i];
         to[i] = kept++;
     }
     for (size_t i = 0; i < mesh->triangles; i++)
@@ -98,7 +100,7 @@ static bool drop_unused(struct mesh *mesh, struct error *err)
 }
 
 /* A corner of a triangle, to be sorted by the place where it lies. */
-struct corner { float p[3], uv[2]; uint32_t triangle, k; };
+struct corner { float p[3], uv[2]; uint32_t source, triangle, k; };
 
 static int by_place(const void *a, const void *b)
 {
@@ -130,6 +132,10 @@ static bool compute_normals(struct mesh *mesh, struct error *err)
     struct corner *corner = malloc((corners + 1) * sizeof *corner);
     if (!face || !corner) error_set(err, ERR_MEMORY, "no memory for the normals of %zu triangles", mesh->triangles);
     if (err->code != ERR_OK || !mesh_init(&made, corners, mesh->triangles, true, mesh->uv, err)) goto out;
+    if (mesh->source && !(made.source = calloc(corners + 1, sizeof *made.source))) {
+        error_set(err, ERR_MEMORY, "no memory for the normals of %zu triangles", mesh->triangles);
+        goto out;
+    }
     for (size_t i = 0; i < mesh->triangles; i++) {
         face[i] = vec3_unit(area_vector(mesh, i));
         for (uint32_t k = 0; k < 3; k++) {
@@ -138,6 +144,7 @@ static bool compute_normals(struct mesh *mesh, struct error *err)
             *c = (struct corner){ .triangle = (uint32_t)i, .k = k };
             memcpy(c->p, mesh->position_m[v], sizeof c->p);
             if (mesh->uv) memcpy(c->uv, mesh->uv[v], sizeof c->uv);
+            if (mesh->source) c->source = mesh->source[v];
         }
     }
     qsort(corner, corners, sizeof *corner, by_place);
@@ -156,11 +163,13 @@ static bool compute_normals(struct mesh *mesh, struct error *err)
             float normal[3] = { (float)n.x, (float)n.y, (float)n.z };
             size_t v = group;
             while (v < used && (memcmp(made.normal[v], normal, sizeof normal) != 0 ||
-                                (made.uv && memcmp(made.uv[v], corner[i].uv, sizeof *made.uv) != 0))) v++;
+                                (made.uv && memcmp(made.uv[v], corner[i].uv, sizeof *made.uv) != 0) ||
+                                (made.source && made.source[v] != corner[i].source))) v++;
             if (v == used) {
                 memcpy(made.position_m[v], corner[i].p, sizeof corner[i].p);
                 memcpy(made.normal[v], normal, sizeof normal);
                 if (made.uv) memcpy(made.uv[v], corner[i].uv, sizeof *made.uv);
+                if (made.source) made.source[v] = corner[i].source;
                 used++;
             }
             made.triangle[corner[i].triangle][corner[i].k] = (uint32_t)v;

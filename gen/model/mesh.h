@@ -13,6 +13,7 @@ struct mesh {
     float (*normal)[3];       /* (vertices,3), unit */
     float (*uv)[2];           /* (vertices,2), v up: (0,0) is the image's lower left corner; NULL without texture */
     uint32_t (*triangle)[3];  /* (triangles,3), counter-clockwise from outside */
+    uint32_t *source;         /* (vertices) the file's vertex that each was made of; NULL unless an importer set it */
     size_t vertices, triangles;
     size_t material;          /* index into model.materials */
 };

@@ -2,6 +2,7 @@
 
 #include "gen/model/model_import.h"
 #include "gen/model/model_texture.h"
+#include "gen/model/rig.h"
 #include "lib/file.h"
 
 #include <float.h>
@@ -42,8 +43,6 @@ static bool entity_from_file(struct mat3 *rotation, const char *path, const stru
     return true;
 }
 
-struct box { double min[3], max[3]; };
-
 static void apply_rotation(struct model *model, struct mat3 rotation)
 {
     for (size_t i = 0; i < model->mesh_count; i++) {
@@ -58,25 +57,25 @@ static void apply_rotation(struct model *model, struct mat3 rotation)
     }
 }
 
-static struct box measure(const struct model *model)
+static void measure(struct model *model)
 {
-    struct box box = { { DBL_MAX, DBL_MAX, DBL_MAX }, { -DBL_MAX, -DBL_MAX, -DBL_MAX } };
+    struct vec3 low = { DBL_MAX, DBL_MAX, DBL_MAX }, high = { -DBL_MAX, -DBL_MAX, -DBL_MAX };
     for (size_t i = 0; i < model->mesh_count; i++)
-        for (size_t v = 0; v < model->meshes[i].vertices; v++)
-            for (int k = 0; k < 3; k++) {
-                double x = (double)model->meshes[i].position_m[v][k];
-                box.min[k] = fmin(box.min[k], x);
-                box.max[k] = fmax(box.max[k], x);
-            }
-    return box;
+        for (size_t v = 0; v < model->meshes[i].vertices; v++) {
+            const float *p = model->meshes[i].position_m[v];
+            low = vec3(fmin(low.x, (double)p[0]), fmin(low.y, (double)p[1]), fmin(low.z, (double)p[2]));
+            high = vec3(fmax(high.x, (double)p[0]), fmax(high.y, (double)p[1]), fmax(high.z, (double)p[2]));
+        }
+    model->min_m = low;
+    model->max_m = high;
 }
 
 /* Metres to a unit of the file. */
-static bool find_scale(double *scale, const struct box *box, double file_unit_m, const char *path, const struct model_options *options, struct error *err)
+static bool find_scale(double *scale, const struct model *model, double file_unit_m, const char *path, const struct model_options *options, struct error *err)
 {
     if ((options->unit_m > 0) + (options->length_m > 0) + (options->height_m > 0) > 1)
         return error_at(err, ERR_INPUT, path, 0, 0, "a unit, a length and a height exclude each other: give one of them in the scene");
-    double length = box->max[0] - box->min[0], height = box->max[2] - box->min[2];
+    double length = model->max_m.x - model->min_m.x, height = model->max_m.z - model->min_m.z;
     if ((options->length_m > 0 && !(length > 0)) || (options->height_m > 0 && !(height > 0)))
         return error_at(err, ERR_INPUT, path, 0, 0, "is flat along the axis that the scene gives a real size for");
     if (options->length_m > 0) *scale = options->length_m / length;
@@ -88,13 +87,11 @@ static bool find_scale(double *scale, const struct box *box, double file_unit_m,
 }
 
 /* Scale, and put the middle of the box over the origin and its lowest vertex on the ground. */
-static bool stand(struct model *model, const struct box *box, double scale, const char *path, struct error *err)
+static bool stand(struct model *model, struct mat3 rotation, double scale, const char *path, struct error *err)
 {
-    double longest = 0, origin[3];
-    for (int k = 0; k < 3; k++) {
-        longest = fmax(longest, (box->max[k] - box->min[k]) * scale);
-        origin[k] = k < 2 ? (box->min[k] + box->max[k]) / 2 : box->min[k];
-    }
+    struct vec3 size = vec3_scale(vec3_sub(model->max_m, model->min_m), scale);
+    double longest = fmax(size.x, fmax(size.y, size.z));
+    double origin[3] = { (model->min_m.x + model->max_m.x) / 2, (model->min_m.y + model->max_m.y) / 2, model->min_m.z };
     if (!(longest >= SIZE_MIN_M && longest <= SIZE_MAX_M))
         return error_at(err, ERR_INPUT, path, 0, 0, "would be %.4g m long with a unit of %.4g m: the unit cannot be right", longest, scale);
     for (size_t i = 0; i < model->mesh_count; i++)
@@ -103,9 +100,10 @@ static bool stand(struct model *model, const struct box *box, double scale, cons
                 float *x = &model->meshes[i].position_m[v][k];
                 *x = (float)(((double)*x - origin[k]) * scale);
             }
-    struct box now = measure(model);
-    model->min_m = vec3(now.min[0], now.min[1], 0);
-    model->max_m = vec3(now.max[0], now.max[1], now.max[2]);
+    measure(model);
+    model->min_m.z = 0;
+    for (int i = 0; model->rig && i < 3; i++)
+        for (int j = 0; j < 4; j++) model->rig->entity_from_file.a[i][j] = scale * (j < 3 ? rotation.m[i][j] : -origin[i]);
     return true;
 }
 
@@ -127,13 +125,20 @@ static bool drop_unused_materials(struct import *import, struct error *err)
     return true;
 }
 
+static bool at_path(const struct model *model, struct error *err)
+{
+    if (err->code == ERR_INPUT && !err->file[0]) snprintf(err->file, sizeof err->file, "%s", model->path);
+    return err->code == ERR_OK;
+}
+
 /* Take the meshes over, tidied; the empty ones go. */
 static bool take_meshes(struct model *model, struct import *import, struct error *err)
 {
+    struct rig *rig = import->rig;
     for (size_t i = 0; i < import->mesh_count; i++)
         if (!mesh_tidy(&import->meshes[i], err)) {
-            snprintf(err->file, sizeof err->file, "%s", model->path);
-            return error_prefix(err, "mesh %zu: ", i);
+            error_prefix(err, "mesh %zu: ", i);
+            return at_path(model, err);
         }
     model->meshes = calloc(import->mesh_count + 1, sizeof *model->meshes);
     if (!model->meshes) return error_set(err, ERR_MEMORY, "no memory for a model");
@@ -141,11 +146,20 @@ static bool take_meshes(struct model *model, struct import *import, struct error
     for (size_t i = 0; i < import->mesh_count; i++) {
         struct mesh *mesh = &import->meshes[i];
         if (mesh->triangles == 0) continue;
+        if (rig) {
+            struct rig_mesh keep = rig->meshes[model->mesh_count];
+            rig->meshes[model->mesh_count] = rig->meshes[i];
+            rig->meshes[i] = keep;
+        }
         model->meshes[model->mesh_count++] = *mesh;
         *mesh = (struct mesh){ 0 };
     }
     if (model->mesh_count == 0) return error_at(err, ERR_INPUT, model->path, 0, 0, "has no triangles");
-    return true;
+    if (!rig || rig->channel_count == 0) return true; /* what only stands needs no rig any more */
+    while (rig->mesh_count > model->mesh_count) rig_mesh_release(&rig->meshes[--rig->mesh_count]);
+    model->rig = rig;
+    import->rig = NULL;
+    return rig_follow(rig, model->meshes, err);
 }
 
 static bool take_materials(struct model *model, struct import *import, const struct model_options *options, struct error *err)
@@ -185,9 +199,10 @@ bool model_load(struct model **model, const char *path, const struct model_optio
     if (!formats[format].import(&import, path, err)) goto out;
     if (!take_meshes(made, &import, err) || !take_materials(made, &import, options, err)) goto out;
     apply_rotation(made, rotation);
-    struct box box = measure(made);
-    if (!find_scale(&scale, &box, import.unit_m, path, options, err)) goto out;
-    if (!stand(made, &box, scale, path, err)) goto out;
+    measure(made);
+    if (!find_scale(&scale, made, import.unit_m, path, options, err)) goto out;
+    if (!stand(made, rotation, scale, path, err)) goto out;
+    if (made->rig && !rig_measure_drift(made->rig, err)) at_path(made, err);
     *model = made;
     made = NULL;
 out:
@@ -206,6 +221,41 @@ void model_destroy(struct model *model)
     free(model->materials);
     free(model->images);
     free(model->missing_textures);
+    rig_destroy(model->rig);
     free(model->path);
     free(model);
+}
+
+bool model_pose(struct model *posed, const struct model *model, double time_s, struct error *err)
+{
+    if (!model->rig) return error_at(err, ERR_INPUT, model->path, 0, 0, "has no animation: it cannot move");
+    struct model made = *model;
+    made.rig = NULL;
+    made.meshes = calloc(model->mesh_count, sizeof *made.meshes);
+    if (!made.meshes) return error_set(err, ERR_MEMORY, "no memory for a model's pose");
+    for (size_t i = 0; i < model->mesh_count; i++) {
+        struct mesh *mesh = &made.meshes[i];
+        *mesh = model->meshes[i];
+        mesh->position_m = malloc(mesh->vertices * sizeof *mesh->position_m);
+        mesh->normal = malloc(mesh->vertices * sizeof *mesh->normal);
+        if (!mesh->position_m || !mesh->normal) error_set(err, ERR_MEMORY, "no memory for a model's pose");
+    }
+    if (err->code != ERR_OK || !rig_pose(made.meshes, model->rig, time_s, err)) {
+        model_posed_release(&made);
+        error_prefix(err, "at %.3f s: ", time_s);
+        return at_path(model, err);
+    }
+    measure(&made);
+    *posed = made;
+    return true;
+}
+
+void model_posed_release(struct model *posed)
+{
+    for (size_t i = 0; posed->meshes && i < posed->mesh_count; i++) {
+        free(posed->meshes[i].position_m);
+        free(posed->meshes[i].normal);
+    }
+    free(posed->meshes);
+    *posed = (struct model){ 0 };
 }

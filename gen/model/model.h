@@ -13,6 +13,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+struct rig;
+
 struct model {
     char *path;
     struct mesh *meshes;
@@ -21,7 +23,8 @@ struct model {
     size_t material_count;
     struct image *images;     /* each texture's pixels once, however many materials show it */
     size_t image_count;
-    struct vec3 min_m, max_m; /* bounding box; min_m.z is 0 */
+    struct vec3 min_m, max_m; /* bounding box; min_m.z is 0, but for a posed model */
+    struct rig *rig;          /* how it moves (gen/model/rig.h); NULL: it does not */
     char **missing_textures;  /* names that the model gives and that were not found */
     size_t missing_texture_count;
 };
@@ -40,8 +43,8 @@ struct model_options {
     const struct material_rules *rules; /* borrowed; NULL: figures alone, by material_default where there are none */
 };
 
-/* Load a .gltf, .glb (tinygltf), .obj, .ply, .dae or .fbx (assimp) file. For a skinned
- * glTF the vertices are those of the first animation at time 0 (bind pose without one).
+/* Load a .gltf, .glb (tinygltf), .obj, .ply, .dae or .fbx (assimp) file. An animated glTF
+ * stands as its first animation begins, and has a rig.
  * Materials: glTF figures as they are, then the rules by name for those without figures.
  * Textures are looked for beside the file, then in the folders around it.
  * Out: *model, the caller's; free with model_destroy.
@@ -49,5 +52,14 @@ struct model_options {
  *      index or size out of range. A missing texture is no error: see missing_textures. */
 bool model_load(struct model **model, const char *path, const struct model_options *options, struct error *err);
 void model_destroy(struct model *model);
+
+/* The model as its first animation has it at a time, which is looped. Unit and origin stay the loaded
+ * model's: the lowest point may leave the ground. What the animation itself goes along the front axis
+ * is taken out, for whoever moves the model moves it.
+ * Out: posed   the caller's storage: positions, normals and the box are its own, the rest is borrowed
+ *              from the model, which must outlive it; its rig is NULL. Free with model_posed_release.
+ * Err: ERR_INPUT at the model's path: it has no animation; a coordinate is not a number. ERR_MEMORY */
+bool model_pose(struct model *posed, const struct model *model, double time_s, struct error *err);
+void model_posed_release(struct model *posed);
 
 #endif

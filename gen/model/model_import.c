@@ -71,6 +71,7 @@ void import_release(struct import *import)
         free(import->images[i].data);
     }
     for (size_t i = 0; i < import->missing_count; i++) free(import->missing[i]);
+    rig_destroy(import->rig);
     free(import->meshes);
     free(import->materials);
     free(import->images);

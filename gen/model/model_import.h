@@ -4,6 +4,7 @@
 
 #include "gen/model/material.h"
 #include "gen/model/mesh.h"
+#include "gen/model/rig.h"
 #include "lib/error.h"
 
 #include <stdbool.h>
@@ -30,6 +31,7 @@ struct import {
     struct import_material *materials;
     struct import_image *images;
     char **missing;         /* files besides images that are not there */
+    struct rig *rig;        /* or NULL; with one, meshes stand at time 0, know their source, and are as many as the rig's */
     size_t mesh_count, material_count, image_count, missing_count;
     double unit_m;          /* the file's own; 0: it says nothing */
 };
