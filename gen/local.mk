@@ -7,18 +7,24 @@ gen_libgen_a_SOURCES = \
   %D%/generator.c %D%/generator.h \
   %D%/light/light.c %D%/light/light.h \
   %D%/light/sun.c %D%/light/sun.h \
+  %D%/model/affine.c %D%/model/affine.h \
   %D%/model/gltf.cpp %D%/model/gltf.h \
+  %D%/model/gltf_accessor.c \
+  %D%/model/gltf_material.c \
+  %D%/model/gltf_rig.c \
   %D%/model/material.c %D%/model/material.h \
   %D%/model/mesh.c %D%/model/mesh.h \
   %D%/model/model.c %D%/model/model.h \
   %D%/model/model_assimp.c \
-  %D%/model/model_gltf.c \
+  %D%/model/model_gltf.c %D%/model/model_gltf.h \
   %D%/model/model_import.c %D%/model/model_import.h \
   %D%/model/model_ply.c \
   %D%/model/model_texture.c %D%/model/model_texture.h \
   %D%/model/paint.c %D%/model/paint.h \
+  %D%/model/rig.c %D%/model/rig.h \
   %D%/model/texture.c %D%/model/texture.h \
   %D%/motion/draw.c %D%/motion/draw.h \
+  %D%/motion/gait.c %D%/motion/gait.h \
   %D%/render/camera_sdl.c %D%/render/camera_sdl.h \
   %D%/render/makefile.c %D%/render/makefile.h \
   %D%/render/passes.c %D%/render/passes.h \

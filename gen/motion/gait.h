@@ -18,10 +18,12 @@ struct gait {
 };
 
 /* Measure the model's first animation.
- * Err: ERR_INPUT at the model's path: it has no animation; no foot is ever on the ground */
+ * Err: ERR_INPUT at the model's path: it has no animation; no foot is ever on the ground; it walks
+ *      backwards, so that its front axis cannot be right */
 bool gait_create(struct gait *gait, const struct model *model, struct error *err);
 void gait_release(struct gait *gait);
-/* The animation's time after a distance, from a phase (0..1) of the loop. */
+/* The animation's time (0 to duration_s) after a distance, from a phase (0..1) of the loop. For whom
+ * stays it is the phase's time alone: add the time that passes, model_pose loops it. */
 double gait_time(const struct gait *gait, double distance_m, double phase);
 
 #endif
