@@ -116,6 +116,9 @@ static bool refuse_contradiction(const struct search *search, size_t agreeing, d
                      agreeing, search->n, inlier_m, names);
 }
 
+/* Beneath it, a length is arithmetic's noise. */
+static double to_mm(double m) { return round(m * 1000) / 1000; }
+
 /* How far the inliers lie apart, and how surely that settles the turns. Their spread is taken from the
  * reconstruction, which is the more precise: of positions in one line, noise makes a band. */
 static bool refuse_line(const struct search *search, const struct similarity *s, const size_t *inliers, size_t count,
@@ -159,7 +162,7 @@ static bool refuse_line(const struct search *search, const struct similarity *s,
                      "the positions lie %s: %zu of them spread over %.3g m along and %.3g m across, with a noise of "
                      "%.2g m, so the turn %s %s (3 deg are wanted). Fly a second line beside the first, or give "
                      "control points off it",
-                     one_point ? "at one point" : "on one line", count, high[0] - low[0], high[1] - low[1], noise_m,
+                     one_point ? "at one point" : "on one line", count, to_mm(high[0] - low[0]), to_mm(high[1] - low[1]), noise_m,
                      one_point ? "to north" : "about that line", uncertain);
 }
 

@@ -46,6 +46,15 @@ static bool read_segment(unsigned char **data, unsigned *size, FILE *f, const ch
     }
 }
 
+/* After "Exif" comes a TIFF header: byte order, 42, where the first directory is. libexif reads nothing where
+ * that leads nowhere, and says nothing. */
+static bool has_directory(const unsigned char *data, unsigned size)
+{
+    if (size < 14) return false;
+    ExifByteOrder order = data[6] == 'M' ? EXIF_BYTE_ORDER_MOTOROLA : EXIF_BYTE_ORDER_INTEL;
+    return exif_get_long(data + 10, order) <= size - 8;
+}
+
 /* ---- entries ---- */
 
 struct reader { const char *path; ExifData *exif; ExifByteOrder order; struct error *err; };
@@ -207,6 +216,10 @@ bool photo_facts_read(struct photo_facts *facts, const char *path, struct error 
     exif_data_log(exif, log);
     /* Follow the specification: libexif would then put defaults where nothing is, the time of day among them. */
     exif_data_unset_option(exif, EXIF_DATA_OPTION_FOLLOW_SPECIFICATION);
+    if (!has_directory(data, size)) {
+        good = error_at(err, ERR_INPUT, path, 0, 0, "EXIF is broken: its first directory is not in it");
+        goto out;
+    }
     exif_data_load_data(exif, data, size);
     struct reader reader = { path, exif, exif_data_get_byte_order(exif), err };
     if (complaint.made) {
