@@ -20,7 +20,9 @@ gen_libgen_a_SOURCES = \
   %D%/model/model_import.c %D%/model/model_import.h \
   %D%/model/model_ply.c \
   %D%/model/model_texture.c %D%/model/model_texture.h \
+  %D%/model/number.c %D%/model/number.h \
   %D%/model/paint.c %D%/model/paint.h \
+  %D%/model/ply.c %D%/model/ply.h \
   %D%/model/rig.c %D%/model/rig.h \
   %D%/model/texture.c %D%/model/texture.h \
   %D%/motion/draw.c %D%/motion/draw.h \
@@ -53,9 +55,18 @@ gen_libgen_a_SOURCES = \
   %D%/world/ground.c %D%/world/ground.h \
   %D%/world/osm.c %D%/world/osm.h \
   %D%/world/path.c %D%/world/path.h \
+  %D%/world/prism.c %D%/world/prism.h \
   %D%/world/receiver.c %D%/world/receiver.h \
   %D%/world/road.c %D%/world/road.h \
-  %D%/world/road_tags.c %D%/world/road_tags.h
+  %D%/world/road_tags.c %D%/world/road_tags.h \
+  %D%/world/static_color.c \
+  %D%/world/static_cut.c \
+  %D%/world/static_mesh.c %D%/world/static_mesh.h %D%/world/static_mesh_impl.h \
+  %D%/world/static_mesh_add.c \
+  %D%/world/static_mesh_obj.c \
+  %D%/world/static_mesh_ply.c \
+  %D%/world/static_mesh_rays.c \
+  %D%/world/static_mesh_write.c
 GEN_LIBS = gen/libgen.a $(LIB_LIBS) $(TINYGLTF_LIBS) $(ASSIMP_LIBS) $(EMBREE_LIBS) $(ERFA_LIBS) $(YAML_LIBS) $(READOSM_LIBS)
 
 

@@ -136,4 +136,10 @@ tests_gen_path_test_SOURCES = %D%/gen/path.c %D%/tap.h
 nodist_EXTRA_tests_gen_path_test_SOURCES = dummy.cxx
 tests_gen_path_test_LDADD = $(GEN_LIBS)
 
+# make bench runs it.
+EXTRA_PROGRAMS += tests/bench/place.bench
+tests_bench_place_bench_SOURCES = %D%/bench/place.c
+nodist_EXTRA_tests_bench_place_bench_SOURCES = dummy.cxx
+tests_bench_place_bench_LDADD = $(GEN_LIBS)
+
 TESTS += $(check_PROGRAMS) $(dist_check_SCRIPTS)

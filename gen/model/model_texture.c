@@ -91,8 +91,7 @@ char *texture_find(const char *model_path, const char *name)
 
 /* --- reading --- */
 
-/* 8 bits, 3 channels or 4: grey becomes colour. Replaces *image. */
-static bool make_u8_color(struct image *image, struct error *err)
+bool texture_make_u8(struct image *image, struct error *err)
 {
     if (image->type == PIXEL_U8 && image->channels >= 3) return true;
     struct image out;
@@ -138,7 +137,7 @@ static bool read_image(struct image *out, struct model *model, const struct impo
         ok = image_read(out, path, err);
         free(path);
     }
-    if (ok && !make_u8_color(out, err)) {
+    if (ok && !texture_make_u8(out, err)) {
         image_release(out);
         ok = false;
     }

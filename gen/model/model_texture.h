@@ -15,6 +15,9 @@
  * Returns the path (the caller frees), or NULL when there is none. */
 char *texture_find(const char *model_path, const char *name);
 
+/* Make an image U8 of 3 channels or 4, in its place: grey becomes colour. Err: ERR_MEMORY */
+bool texture_make_u8(struct image *image, struct error *err);
+
 /* Give model->materials (already copied from import->materials) their images: model->images and
  * model->missing_textures are filled in. Figures that the file gives as textures (metallic,
  * roughness, emissive) become their means; what turns out opaque is made ALPHA_OPAQUE.

@@ -64,9 +64,13 @@ bool static_mesh_blocks(const struct static_mesh *mesh, struct vec3 from_m, stru
 bool static_mesh_height(const struct static_mesh *mesh, double *z_m, double x_m, double y_m, double below_m);
 
 struct vec3 static_mesh_normal(const struct static_mesh *mesh, uint32_t triangle); /* unit, of the face */
-/* Colour at a hit, linear; a texture is averaged over footprint_m (0: the nearest texel). */
+/* Colour at a hit, linear; a texture is averaged over footprint_m (0: the nearest texel). A mesh
+ * without colours is a grey of STATIC_GREY. */
+#define STATIC_GREY 0.2f
+bool static_mesh_has_colors(const struct static_mesh *mesh);
 void static_mesh_color(const struct static_mesh *mesh, float rgb[3], const struct static_hit *hit, double footprint_m);
-/* The face's label (a semantic mesh), or -1. */
+/* The face's label (a semantic mesh), or -1: STATIC_LABEL_UNKNOWN in the file, or no labels at all. */
+#define STATIC_LABEL_UNKNOWN 255
 int static_mesh_label(const struct static_mesh *mesh, uint32_t triangle);
 
 /* --- cuts --- */
@@ -80,7 +84,8 @@ struct prism {
     struct vec3 axis;            /* unit, axis.z > 0 */
     double below_m, above_m;     /* heights over base_m, below_m <= 0 */
 };
-/* Triangles of the coarsened mesh that reach into one of the prisms, each once. */
+/* Triangles of the coarsened mesh that reach into one of the prisms, each once, in an order that depends
+ * on the mesh and the prisms alone. What is coarsened is kept for the next cut: one thread at a time. */
 struct static_cut {
     float (*position_m)[3];      /* (vertices,3) world */
     float (*color)[3];           /* (vertices,3) linear */

@@ -271,7 +271,7 @@ static void ply_is_read(void)
                                  "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
     char cut[sizeof binary + 64] = { 0 };
     memcpy(cut, binary, sizeof binary - 1);
-    refused(put("vertex.ply", cut, sizeof binary - 1 + 20), &metres_z_up, "vertex.ply: is truncated, or has no number where one belongs: element \"vertex\" 2 of 2", "refuses a binary PLY file that ends among its vertices");
+    refused(put("vertex.ply", cut, sizeof binary - 1 + 20), &metres_z_up, "vertex.ply: the PLY header tells of 2 elements \"vertex\", but only 20 bytes follow", "refuses a binary PLY file that ends among its vertices");
     cut[sizeof binary - 1 + 24] = 3;
     cut[sizeof binary - 1 + 25] = 7;
     refused(put("face.ply", cut, sizeof binary - 1 + 24 + 26), &metres_z_up, "face.ply: a face uses vertex 7 of 2", "refuses a face of a vertex that is not there");
