@@ -9,6 +9,7 @@
 
 #define SATURATED_SHARE_MAX 0.01
 #define SPREAD_MAX 4.0
+#define SAMPLES_MIN 20
 
 /* Rec.709 */
 static const double luminance_weight[3] = { 0.2126, 0.7152, 0.0722 };
@@ -35,44 +36,82 @@ struct exposure exposure_given(double k)
     return (struct exposure){ .k = { k, k, k } };
 }
 
+static bool check_radiance(const double ground_radiance[3], struct error *err)
+{
+    for (int c = 0; c < 3; c++)
+        if (!(ground_radiance[c] > 0))
+            return error_set(err, ERR_INPUT, "the rendered ground has no radiance (%g %g %g): no exposure can be fitted to it",
+                             ground_radiance[0], ground_radiance[1], ground_radiance[2]);
+    return true;
+}
+
+static bool is_saturated(const uint8_t *px)
+{
+    return px[0] == 255 || px[1] == 255 || px[2] == 255;
+}
+
+/* Linear values of pixels, to be sorted: (4,n) R, G, B, luminance. */
+struct values { double *value; size_t n; double of_level[256]; };
+
+static bool values_init(struct values *v, size_t n, struct error *err)
+{
+    v->n = n;
+    v->value = malloc(4 * n * sizeof *v->value);
+    for (int i = 0; i < 256; i++) v->of_level[i] = (double)linear_from_srgb((float)i / 255);
+    return v->value || error_set(err, ERR_MEMORY, "no memory for %zu pixels to fit an exposure to", n);
+}
+
+static void values_set(struct values *v, size_t i, const uint8_t *px)
+{
+    double rgb[3] = { v->of_level[px[0]], v->of_level[px[1]], v->of_level[px[2]] };
+    for (size_t c = 0; c < 3; c++) v->value[c * v->n + i] = rgb[c];
+    v->value[3 * v->n + i] = luminance(rgb);
+}
+
+/* The medians of the first `used` pixels, and k from them; the values are sorted after. */
+static struct exposure fit(struct values *v, size_t used, const double ground_radiance[3], bool white_balance)
+{
+    struct exposure e = { .fitted = true };
+    for (size_t c = 0; c < 4; c++) qsort(v->value + c * v->n, used, sizeof *v->value, compare);
+    double bright = median(v->value + 3 * v->n, used);
+    for (size_t c = 0; c < 3; c++) {
+        e.median[c] = median(v->value + c * v->n, used);
+        e.k[c] = white_balance ? e.median[c] / ground_radiance[c] : bright / luminance(ground_radiance);
+    }
+    return e;
+}
+
+static bool is_black(const struct exposure *e)
+{
+    return !(e->k[0] > 0 && e->k[1] > 0 && e->k[2] > 0);
+}
+
 bool exposure_fit(struct exposure *exposure, const struct image *photograph, struct rect p,
                   const double ground_radiance[3], bool white_balance, struct error *err)
 {
     if (!window_inside(p, photograph->width_px, photograph->height_px))
         return error_set(err, ERR_INPUT, "exposure patch %d,%d to %d,%d: lies outside the picture of %d x %d pixels, or is empty",
                          p.x0, p.y0, p.x1, p.y1, photograph->width_px, photograph->height_px);
-    for (int c = 0; c < 3; c++)
-        if (!(ground_radiance[c] > 0))
-            return error_set(err, ERR_INPUT, "the rendered ground has no radiance (%g %g %g): no exposure can be fitted to it",
-                             ground_radiance[0], ground_radiance[1], ground_radiance[2]);
-
-    double of_level[256];
-    for (int i = 0; i < 256; i++) of_level[i] = (double)linear_from_srgb((float)i / 255);
-    size_t n = (size_t)(p.x1 - p.x0) * (size_t)(p.y1 - p.y0), saturated = 0, at = 0;
-    double *values = malloc(4 * n * sizeof *values), *bright = values + 3 * n; /* R, G, B, luminance */
-    if (!values) return error_set(err, ERR_MEMORY, "no memory for an exposure patch of %zu pixels", n);
+    struct values values;
+    size_t n = rect_area(p), saturated = 0, at = 0;
+    if (!check_radiance(ground_radiance, err) || !values_init(&values, n, err)) return false;
     for (int y = p.y0; y < p.y1; y++)
-        for (int x = p.x0; x < p.x1; x++, at++) {
+        for (int x = p.x0; x < p.x1; x++) {
             const uint8_t *px = image_u8(photograph, x, y);
-            saturated += px[0] == 255 || px[1] == 255 || px[2] == 255;
-            double rgb[3] = { of_level[px[0]], of_level[px[1]], of_level[px[2]] };
-            for (size_t c = 0; c < 3; c++) values[c * n + at] = rgb[c];
-            bright[at] = luminance(rgb);
+            saturated += is_saturated(px);
+            values_set(&values, at++, px);
         }
-    for (size_t c = 0; c < 4; c++) qsort(values + c * n, n, sizeof *values, compare);
-
-    struct exposure e = { .fitted = true, .patch_px = p };
-    for (size_t c = 0; c < 3; c++) e.median[c] = median(values + c * n, n);
+    struct exposure e = fit(&values, n, ground_radiance, white_balance);
+    const double *bright = values.value + 3 * n;
     double low = bright[n / 10], high = bright[n - 1 - n / 10], share = (double)saturated / (double)n;
-    for (size_t c = 0; c < 3; c++)
-        e.k[c] = white_balance ? e.median[c] / ground_radiance[c] : median(bright, n) / luminance(ground_radiance);
-    free(values);
+    e.patch_px = p;
+    free(values.value);
 
     const char *advice = "choose a patch of evenly lit ground";
     if (share > SATURATED_SHARE_MAX)
         return error_set(err, ERR_INPUT, "exposure patch %d,%d to %d,%d: %.1f %% of it is saturated: %s, or give the exposure",
                          p.x0, p.y0, p.x1, p.y1, 100 * share, advice);
-    if (!(e.k[0] > 0 && e.k[1] > 0 && e.k[2] > 0))
+    if (is_black(&e))
         return error_set(err, ERR_INPUT, "exposure patch %d,%d to %d,%d: is black: %s, or give the exposure",
                          p.x0, p.y0, p.x1, p.y1, advice);
     if (high > SPREAD_MAX * low)
@@ -82,13 +121,39 @@ bool exposure_fit(struct exposure *exposure, const struct image *photograph, str
     return true;
 }
 
+bool exposure_fit_samples(struct exposure *exposure, const struct image *photograph, const struct vec2 *sample_px,
+                          size_t n, const double ground_radiance[3], bool white_balance, struct error *err)
+{
+    struct values values;
+    size_t used = 0;
+    if (!check_radiance(ground_radiance, err) || !values_init(&values, n + 1, err)) return false;
+    for (size_t i = 0; i < n; i++) {
+        struct vec2 q = sample_px[i];
+        if (!(q.x >= 0 && q.y >= 0 && q.x < photograph->width_px && q.y < photograph->height_px)) continue;
+        const uint8_t *px = image_u8(photograph, (int)q.x, (int)q.y);
+        if (!is_saturated(px)) values_set(&values, used++, px);
+    }
+    struct exposure e = { 0 };
+    if (used >= SAMPLES_MIN) e = fit(&values, used, ground_radiance, white_balance);
+    e.samples = used;
+    free(values.value);
+    if (used < SAMPLES_MIN)
+        return error_set(err, ERR_INPUT, "%zu of %zu pixels of sunlit road are in the picture and not saturated, at least %d "
+                         "are needed: give an exposure patch, or the exposure", used, n, SAMPLES_MIN);
+    if (is_black(&e))
+        return error_set(err, ERR_INPUT, "most of %zu pixels of sunlit road are black: give an exposure patch, or the exposure", used);
+    *exposure = e;
+    return true;
+}
+
 bool exposure_write(const char *path, const struct exposure *e, struct error *err)
 {
     json_t *json = json_pack("{s:[f,f,f], s:b}", "exposure", e->k[0], e->k[1], e->k[2], "fitted", (int)e->fitted);
     if (json && e->fitted) {
         const struct rect *p = &e->patch_px;
-        json_object_set_new(json, "patch_px", json_pack("[i,i,i,i]", p->x0, p->y0, p->x1, p->y1));
-        json_object_set_new(json, "patch_median_linear", json_pack("[f,f,f]", e->median[0], e->median[1], e->median[2]));
+        if (e->samples > 0) json_object_set_new(json, "samples", json_integer((json_int_t)e->samples));
+        else json_object_set_new(json, "patch_px", json_pack("[i,i,i,i]", p->x0, p->y0, p->x1, p->y1));
+        json_object_set_new(json, "median_linear", json_pack("[f,f,f]", e->median[0], e->median[1], e->median[2]));
     }
     char *text = json ? json_dumps(json, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) : NULL;
     bool ok = text ? file_write(path, text, strlen(text), err) : error_set(err, ERR_MEMORY, "no memory for %s", path);

@@ -7,12 +7,14 @@
 #include "lib/view.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 
 struct exposure {
     double k[3];        /* linear photograph value per unit of radiance, for R, G and B */
     bool fitted;
-    struct rect patch_px; /* of the fit */
-    double median[3];   /* of the fit: the patch's linear values */
+    struct rect patch_px; /* of a fit to a patch, else empty */
+    size_t samples;     /* of a fit to samples, else 0: how many were of use */
+    double median[3];   /* of the fit: linear values of the patch or the samples */
 };
 
 struct exposure exposure_given(double k);
@@ -25,6 +27,13 @@ struct exposure exposure_given(double k);
  *      than 4 times the 10th); or the ground_radiance is not positive */
 bool exposure_fit(struct exposure *exposure, const struct image *photograph, struct rect patch_px,
                   const double ground_radiance[3], bool white_balance, struct error *err);
+
+/* The same from pixels here and there that show sunlit ground, such as a road's. Those outside the
+ * picture or saturated are left out.
+ * In:  sample_px (n)
+ * Err: ERR_INPUT: fewer than 20 are of use, or they are black; or as above */
+bool exposure_fit_samples(struct exposure *exposure, const struct image *photograph, const struct vec2 *sample_px,
+                          size_t n, const double ground_radiance[3], bool white_balance, struct error *err);
 
 /* As JSON, for people and for the next fit. */
 bool exposure_write(const char *path, const struct exposure *exposure, struct error *err);

@@ -1,7 +1,10 @@
 #include "post/input.h"
 
+#include "lib/file.h"
+
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define HALF_MAX 65504.0f
 
@@ -49,10 +52,41 @@ bool input_pass(struct image *pass, const char *path, int width_px, int height_p
     return true;
 }
 
-static bool same_aspect(const struct image *image, int width_px, int height_px)
+char *input_path(const char *out, const char *path, struct error *err)
+{
+    char *made = path[0] == '/' ? strdup(path) : string_format("%s/%s", out, path);
+    if (!made) error_set(err, ERR_MEMORY, "no memory for a path");
+    return made;
+}
+
+static bool in_proportion(const struct image *image, const char *path, int width_px, int height_px, struct error *err)
 {
     double height = (double)image->height_px * width_px / image->width_px;
-    return fabs(height - height_px) <= 1;
+    return fabs(height - height_px) <= 1 ||
+           error_at(err, ERR_INPUT, path, 0, 0, "is %d x %d pixels: not in proportion to the scene's %d x %d",
+                    image->width_px, image->height_px, width_px, height_px);
+}
+
+bool input_nearest(struct image *image, const char *path, int width_px, int height_px, struct error *err)
+{
+    struct image stored, scaled;
+    if (!image_read(&stored, path, err)) return false;
+    if (stored.width_px == width_px && stored.height_px == height_px) {
+        *image = stored;
+        return true;
+    }
+    bool ok = in_proportion(&stored, path, width_px, height_px, err) &&
+              image_init(&scaled, width_px, height_px, stored.channels, stored.type, err);
+    size_t pixel = image_pixel_size(&stored), sw = (size_t)stored.width_px, sh = (size_t)stored.height_px;
+    size_t w = (size_t)width_px, h = (size_t)height_px;
+    for (size_t y = 0; ok && y < h; y++)
+        for (size_t x = 0; x < w; x++) {
+            size_t from = (2 * y + 1) * sh / (2 * h) * sw + (2 * x + 1) * sw / (2 * w);
+            memcpy((char *)scaled.data + (y * w + x) * pixel, (const char *)stored.data + from * pixel, pixel);
+        }
+    image_release(&stored);
+    if (ok) *image = scaled;
+    return ok;
 }
 
 /* The colour channels alone. */
@@ -72,11 +106,7 @@ bool input_photograph(struct image *rgb, const char *path, int width_px, int hei
     struct image stored, linear = { 0 };
     if (!image_read(&stored, path, err)) return false;
     bool ok = false, scaled = stored.width_px != width_px || stored.height_px != height_px;
-    if (scaled && !same_aspect(&stored, width_px, height_px)) {
-        error_at(err, ERR_INPUT, path, 0, 0, "is %d x %d pixels: not in proportion to the scene's %d x %d",
-                 stored.width_px, stored.height_px, width_px, height_px);
-        goto out;
-    }
+    if (scaled && !in_proportion(&stored, path, width_px, height_px, err)) goto out;
     if (stored.type == PIXEL_F32) {
         error_at(err, ERR_INPUT, path, 0, 0, "is a float image: a photograph has 8 or 16 bits a channel");
         goto out;

@@ -2,16 +2,27 @@
 noinst_LIBRARIES += post/libpost.a
 post_libpost_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(JANSSON_CFLAGS)
 post_libpost_a_SOURCES = \
+  %D%/before.c %D%/before.h \
+  %D%/defocus.c %D%/defocus.h \
   %D%/depth.c %D%/depth.h \
   %D%/exposure.c %D%/exposure.h \
   %D%/frame.c %D%/frame.h \
+  %D%/frame_input.c %D%/frame_input.h \
   %D%/frame_list.c %D%/frame_list.h \
+  %D%/ground_light.c %D%/ground_light.h \
   %D%/input.c %D%/input.h \
+  %D%/kernel.c %D%/kernel.h \
+  %D%/layer.c %D%/layer.h \
   %D%/mask.c %D%/mask.h \
+  %D%/mist.c %D%/mist.h \
   %D%/morphology.cpp %D%/morphology.h \
+  %D%/motion.c %D%/motion.h \
+  %D%/optics.c %D%/optics.h \
   %D%/output.c %D%/output.h \
   %D%/resample.c %D%/resample.h \
   %D%/semantic.c %D%/semantic.h \
+  %D%/softness.c %D%/softness.h \
+  %D%/spread.c %D%/spread.h \
   %D%/transfer.h %D%/transfer_caught.c \
   %D%/transfer_alpha.c %D%/transfer_layers.c %D%/transfer_ratio.c %D%/transfer_threshold.c \
   %D%/window.c %D%/window.h

@@ -2,6 +2,7 @@
 
 #include "lib/opencv.h"
 
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 using staffage::guarded;
@@ -38,5 +39,13 @@ bool morphology_blur(struct image *out, const struct image *in, struct error *er
 {
     return filter(out, in, err, [](const cv::Mat &from, cv::Mat to) {
         cv::GaussianBlur(from, to, cv::Size(5, 5), 1.1, 1.1, cv::BORDER_REFLECT_101);
+    });
+}
+
+bool morphology_gaussian(struct image *out, const struct image *in, double sigma_px, struct error *err)
+{
+    return filter(out, in, err, [=](const cv::Mat &from, cv::Mat to) {
+        int side = 2 * (int)std::ceil(3 * sigma_px) + 1;
+        cv::GaussianBlur(from, to, cv::Size(side, side), sigma_px, sigma_px, cv::BORDER_CONSTANT);
     });
 }

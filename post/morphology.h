@@ -1,4 +1,4 @@
-/* Neighbourhood operations of OpenCV on one-channel images. All are 3 by 3 pixels
+/* Neighbourhood operations of OpenCV. All are on one-channel images of 3 by 3 pixels
  * unless said; beyond the border nothing grows in and nothing is eaten away. */
 #ifndef STAFFAGE_POST_MORPHOLOGY_H
 #define STAFFAGE_POST_MORPHOLOGY_H
@@ -18,6 +18,8 @@ bool morphology_dilate(struct image *out, const struct image *in, struct error *
 bool morphology_erode(struct image *out, const struct image *in, struct error *err);
 /* Gaussian of 5 by 5 pixels, sigma 1.1; the border is mirrored. Out: as above. */
 bool morphology_blur(struct image *out, const struct image *in, struct error *err);
+/* Gaussian, cut off at 3 sigma; F32 of any channels; beyond the border is 0. Out: as above. */
+bool morphology_gaussian(struct image *out, const struct image *in, double sigma_px, struct error *err);
 
 #ifdef __cplusplus
 }

@@ -14,9 +14,17 @@
 bool semantic_classes(struct image *classes, const struct image *instance, const struct manifest *manifest,
                       struct error *err);
 
-/* The dataset's pictures of them; black and 0 where no entity is.
- * Out: color (U8, 3 channels), ids (U8, 1 channel), initialized here */
-bool semantic_color(struct image *color, const struct image *classes, struct error *err);
-bool semantic_ids(struct image *ids, const struct image *classes, struct error *err);
+/* The dataset's pictures of them: what the frame had before, overwritten where an entity is. Nothing
+ * else changes in the form that `before` has; the other form is made from it by the palette, in which a
+ * colour that the palette lacks gets id 0, and an id that it lacks black.
+ * Out: color (U8; 4 channels when `before` has 4, else 3), ids (U8, 1 channel), initialized here
+ * In:  before (U8): 1 channel, ids; 3 or 4, colours; or empty: black and 0 */
+bool semantic_color(struct image *color, const struct image *classes, const struct image *before, enum palette palette,
+                    struct error *err);
+bool semantic_ids(struct image *ids, const struct image *classes, const struct image *before, enum palette palette,
+                  struct error *err);
+
+/* The id of a colour: of one of the palette's labels, or of an entity in it; -1 for any other. */
+int semantic_id_of_color(enum palette palette, const uint8_t color[3]);
 
 #endif

@@ -13,7 +13,8 @@ static void check_semantic(void)
     struct image instance = { 2, 2, 1, PIXEL_U16, ids }, classes, color, semantic;
     struct error err = ERROR_NONE;
     if (!OK(semantic_classes(&classes, &instance, &manifest, &err), "every id of the manifest has a class")) return;
-    OK(semantic_color(&color, &classes, &err) && semantic_ids(&semantic, &classes, &err), "pictures are made of them");
+    struct image none = { 0 };
+    OK(semantic_color(&color, &classes, &none, PALETTE_CITYSCAPES, &err) && semantic_ids(&semantic, &classes, &none, PALETTE_CITYSCAPES, &err), "pictures are made of them");
     const uint8_t *c = color.data, *s = semantic.data;
     OK(s[0] == 0 && s[1] == 26 && s[2] == 24 && s[3] == 26, "ids are Cityscapes': car 26, person 24");
     OK(c[0] == 0 && c[1] == 0 && c[2] == 0, "nothing is black");
@@ -30,9 +31,11 @@ static void check_semantic(void)
 static void check_depth(void)
 {
     float metres[8] = { NAN, 12.3456f, 65.535f, 65.54f, 200, -1, 0.0004f, INFINITY };
-    struct image depth = { 8, 1, 1, PIXEL_F32, metres }, out;
+    struct image depth = { 8, 1, 1, PIXEL_F32, metres }, before = { 0 }, exr, out;
     struct error err = ERROR_NONE;
-    if (!OK(depth_millimetres(&out, &depth, &err), "depth is turned into millimetres")) return;
+    if (!OK(depth_overwrite(&exr, &out, &before, &depth, &err), "depth is turned into millimetres")) return;
+    OK(!memcmp(exr.data, metres, sizeof metres), "and in metres is the entities' alone");
+    image_release(&exr);
     const uint16_t *mm = out.data;
     OK(mm[0] == 0, "unknown is 0");
     OK(mm[1] == 12346, "12.3456 m is 12346 mm, rounded");

@@ -1,0 +1,44 @@
+#include "post/softness.h"
+
+#include "post/layer.h"
+#include "post/morphology.h"
+
+/* Weigh a layer by what can be seen of it, blur both, and divide: as kernel_mean does. */
+static bool blur_seen(struct image *out, const struct image *layer, const struct image *share, double sigma_px, struct error *err)
+{
+    struct image weighed = { 0 }, hidden = { 0 }, covered = { 0 };
+    bool ok = layer_copy(&weighed, layer, err) && image_init(&hidden, layer->width_px, layer->height_px, 1, PIXEL_F32, err);
+    size_t n = (size_t)layer->width_px * (size_t)layer->height_px, channels = (size_t)layer->channels;
+    const uint8_t *part = share->data;
+    for (size_t i = 0; ok && i < n; i++) {
+        float seen = (float)part[i] / 255;
+        ((float *)hidden.data)[i] = 1 - seen;
+        for (size_t c = 0; c < channels; c++) ((float *)weighed.data)[i * channels + c] *= seen;
+    }
+    ok = ok && morphology_gaussian(&covered, &hidden, sigma_px, err) && morphology_gaussian(out, &weighed, sigma_px, err);
+    for (size_t i = 0; ok && i < n; i++) {
+        float seen = 1 - ((float *)covered.data)[i];
+        for (size_t c = 0; c < channels; c++) {
+            float *v = (float *)out->data + i * channels + c;
+            *v = seen > 1e-4f ? *v / seen : 0;
+        }
+    }
+    image_release(&weighed);
+    image_release(&hidden);
+    image_release(&covered);
+    return ok;
+}
+
+static bool blur(struct image *layer, const struct image *share, double sigma_px, struct error *err)
+{
+    struct image out = { 0 };
+    bool ok = share ? blur_seen(&out, layer, share, sigma_px, err) : morphology_gaussian(&out, layer, sigma_px, err);
+    layer_replace(layer, &out, ok);
+    return ok;
+}
+
+bool softness_blur(struct image *object, struct image *light, const struct image *visible, const struct image *receiver,
+                   double sigma_px, struct error *err)
+{
+    return blur(object, visible, sigma_px, err) && blur(light, receiver, sigma_px, err);
+}
