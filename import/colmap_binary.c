@@ -21,8 +21,9 @@ static size_t left(const struct bytes *b) { return b->size - b->at; }
 
 static bool ends(const struct bytes *b)
 {
-    return colmap_fault(b->records, b->file, b->size, b->err, "the file ends in %s %llu of %llu: it is cut off",
-                        b->item, (unsigned long long)b->index + 1, (unsigned long long)b->count);
+    colmap_fault(b->records, b->file, b->size, b->err, "the file ends in %s %llu of %llu: it is cut off", b->item,
+                 (unsigned long long)b->index + 1, (unsigned long long)b->count);
+    return false;
 }
 
 static bool u64(struct bytes *b, uint64_t *value)

@@ -14,8 +14,17 @@ import_libimport_a_SOURCES = \
   %D%/json_file.c %D%/json_file.h \
   %D%/nerfstudio.c \
   %D%/opensfm.c \
+  %D%/path_from.c %D%/path_from.h \
   %D%/photo_facts.c %D%/photo_facts.h \
+  %D%/photographs.c %D%/photographs.h \
+  %D%/placement.c %D%/placement.h \
   %D%/reconstruction.c %D%/reconstruction.h \
+  %D%/scene_yaml.c %D%/scene_yaml.h \
   %D%/similarity.c %D%/similarity.h \
   %D%/svd.c %D%/svd.h
 IMPORT_LIBS = import/libimport.a $(LIB_LIBS) $(EXIF_LIBS)
+
+bin_PROGRAMS += staffage-import
+staffage_import_SOURCES = %D%/main.c
+nodist_EXTRA_staffage_import_SOURCES = dummy.cxx
+staffage_import_LDADD = $(IMPORT_LIBS)

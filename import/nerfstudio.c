@@ -138,7 +138,7 @@ static bool read_frame(struct reconstruction *r, struct walk *frame, struct walk
     struct camera camera;
     struct pose applied_from_gl;
     char path[1024];
-    size_t index;
+    size_t index = 0;
     if (!walk_string(frame, "file_path", path, sizeof path) ||
         !read_matrix(&applied_from_gl, frame, "transform_matrix") || !read_camera(&camera, frame, file) ||
         !camera_index(&index, r, &camera, frame->err))
