@@ -136,6 +136,11 @@ tests_gen_path_test_SOURCES = %D%/gen/path.c %D%/tap.h
 nodist_EXTRA_tests_gen_path_test_SOURCES = dummy.cxx
 tests_gen_path_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/static_mesh.test
+tests_gen_static_mesh_test_SOURCES = %D%/gen/static_mesh.c %D%/tap.h
+nodist_EXTRA_tests_gen_static_mesh_test_SOURCES = dummy.cxx
+tests_gen_static_mesh_test_LDADD = $(GEN_LIBS)
+
 # make bench runs it.
 EXTRA_PROGRAMS += tests/bench/place.bench
 tests_bench_place_bench_SOURCES = %D%/bench/place.c
