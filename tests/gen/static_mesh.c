@@ -188,9 +188,10 @@ static void reading_obj(void)
     struct image image;
     struct error err = ERROR_NONE;
     char path[128];
-    image_init(&image, 4, 2, 3, PIXEL_U8, &err);
-    memset(image_u8(&image, 0, 0), 200, 12);
-    memset(image_u8(&image, 0, 1), 50, 6);
+    image_init(&image, 4, 4, 3, PIXEL_U8, &err);
+    memset(image_u8(&image, 0, 0), 200, 24);
+    memset(image_u8(&image, 0, 2), 50, 6);
+    memset(image_u8(&image, 0, 3), 50, 6);
     snprintf(path, sizeof path, "%s/skin 1.png", folder);
     image_write(path, &image, &err);
     image_release(&image);
@@ -208,7 +209,7 @@ static void reading_obj(void)
         NEAR((double)rgb[0], 0, 1e-6, "and its lower right one at (1, 0)");
         struct static_hit middle = { .triangle = 0, .u = 0, .v = 0.5f };
         static_mesh_color(m, rgb, &middle, 4);
-        NEAR((double)rgb[0], (8 * (double)linear_from_srgb(200 / 255.f) / 2 + 4 * (double)linear_from_srgb(50 / 255.f) / 2) / 8, 1e-3, "a footprint as large as the texture takes its mean");
+        NEAR((double)rgb[0], (2 * (double)linear_from_srgb(200 / 255.f) + (double)linear_from_srgb(50 / 255.f)) / 4, 1e-5, "a footprint as large as the texture takes its mean");
         static_mesh_color(m, rgb, &grass, 0);
         OK(rgb[0] == 0 && rgb[1] == 1, "a material without texture gives its colour");
     }
