@@ -25,8 +25,15 @@ gen_libgen_a_SOURCES = \
   %D%/model/ply.c %D%/model/ply.h \
   %D%/model/rig.c %D%/model/rig.h \
   %D%/model/texture.c %D%/model/texture.h \
+  %D%/motion/crossing.c %D%/motion/crossing.h \
+  %D%/motion/crowd.c %D%/motion/crowd.h \
   %D%/motion/draw.c %D%/motion/draw.h \
+  %D%/motion/drive.c \
   %D%/motion/gait.c %D%/motion/gait.h \
+  %D%/motion/population.c %D%/motion/population.h \
+  %D%/motion/track.c %D%/motion/track.h \
+  %D%/motion/traffic.c %D%/motion/traffic.h \
+  %D%/motion/walk.c \
   %D%/render/camera_sdl.c %D%/render/camera_sdl.h \
   %D%/render/makefile.c %D%/render/makefile.h \
   %D%/render/passes.c %D%/render/passes.h \

@@ -141,6 +141,11 @@ tests_gen_static_mesh_test_SOURCES = %D%/gen/static_mesh.c %D%/tap.h
 nodist_EXTRA_tests_gen_static_mesh_test_SOURCES = dummy.cxx
 tests_gen_static_mesh_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/traffic.test
+tests_gen_traffic_test_SOURCES = %D%/gen/traffic.c %D%/tap.h
+nodist_EXTRA_tests_gen_traffic_test_SOURCES = dummy.cxx
+tests_gen_traffic_test_LDADD = $(GEN_LIBS)
+
 # make bench runs it.
 EXTRA_PROGRAMS += tests/bench/place.bench
 tests_bench_place_bench_SOURCES = %D%/bench/place.c
