@@ -1,6 +1,7 @@
 /* Writes the demo's own models: `make-models FOLDER` makes OBJ and MTL files there, in metres, z up,
- * front +x. The same numbers give the same bytes on every run. */
+ * front +x, and people that walk as GLB files. The same numbers give the same bytes on every run. */
 #include "lib/file.h"
+#include "scenes/models/glb.h"
 #include "scenes/models/mesh.h"
 
 #include <stdio.h>
@@ -24,6 +25,12 @@ int main(int argc, char **argv)
         { "woman-standing", WOMAN, STANDING, { { [SKIN] = { 0.82, 0.60, 0.49 }, [HAIR] = { 0.35, 0.24, 0.12 },
             [JACKET] = { 0.45, 0.42, 0.38 }, [TROUSERS] = { 0.09, 0.12, 0.20 }, [SHOES] = { 0.15, 0.10, 0.07 } } } }
     };
+    static const struct { const char *name; enum build build; struct palette palette; } walkers[] = {
+        { "walker-man", MAN, { { [SKIN] = { 0.78, 0.56, 0.45 }, [HAIR] = { 0.14, 0.09, 0.06 },
+            [JACKET] = { 0.16, 0.25, 0.36 }, [TROUSERS] = { 0.30, 0.27, 0.22 }, [SHOES] = { 0.09, 0.06, 0.05 } } } },
+        { "walker-woman", WOMAN, { { [SKIN] = { 0.84, 0.62, 0.51 }, [HAIR] = { 0.30, 0.18, 0.09 },
+            [JACKET] = { 0.55, 0.13, 0.11 }, [TROUSERS] = { 0.10, 0.12, 0.19 }, [SHOES] = { 0.07, 0.06, 0.06 } } } }
+    };
 
     if (argc != 2) {
         fprintf(stderr, "usage: make-models FOLDER\n");
@@ -35,8 +42,15 @@ int main(int argc, char **argv)
     if (good) make_sedan(&model);
     good = good && write_model(&model, argv[1], "sedan", &sedan_colors, &err);
     for (size_t i = 0; good && i < COUNT(people); i++) {
-        make_person(&model, people[i].build, people[i].stance, people[i].build == MAN ? 1.78 : 1.66);
+        make_person(&model, NULL, people[i].build, people[i].stance, people[i].build == MAN ? 1.78 : 1.66);
         good = write_model(&model, argv[1], people[i].name, &people[i].palette, &err);
+    }
+    for (size_t i = 0; good && i < COUNT(walkers); i++) {
+        struct skeleton skeleton;
+        static struct walk walk;
+        make_person(&model, &skeleton, walkers[i].build, READY, walkers[i].build == MAN ? 1.78 : 1.66);
+        make_walk(&walk, &skeleton, &model);
+        good = write_walker(&model, &skeleton, &walk, argv[1], walkers[i].name, &walkers[i].palette, &err);
     }
     if (!good) error_print(&err, "make-models");
     return error_exit_status(&err);

@@ -1,11 +1,8 @@
 #include "scenes/models/mesh.h"
 
-#include "lib/file.h"
-
-#include <stdio.h>
 #include <stdlib.h>
 
-static const char *const material_name[MATERIAL_COUNT] = {
+const char *const material_name[MATERIAL_COUNT] = {
     "Car body paint", "Window glass", "Black trim plastic", "Underside rubber", "Interior", "Headlight plastic",
     "Tail light plastic", "Number plate plastic", "Rear number plate plastic", "Tire rubber", "Rim silver",
     "Skin", "Hair", "Jacket cloth", "Trousers cloth", "Shoes leather"
@@ -18,7 +15,7 @@ static void add_triangle(struct model *model, enum material material, struct vec
         model->triangles = realloc(model->triangles, model->room * sizeof *model->triangles);
         if (!model->triangles) abort();
     }
-    model->triangles[model->count++] = (struct triangle){ { a, b, c }, material };
+    model->triangles[model->count++] = (struct triangle){ { a, b, c }, material, model->part };
 }
 
 void add_quad(struct model *model, enum material material, const struct vec3 q[4])
@@ -80,14 +77,6 @@ static size_t find(const struct index *index, struct vec3 p)
     return (size_t)(found - index->cells);
 }
 
-static void write_index(FILE *f, const char *word, const struct index *index)
-{
-    for (size_t i = 0; i < index->count; i++) {
-        const int *v = index->cells[i].v;
-        fprintf(f, "%s %g %g %g\n", word, v[0] / index->scale, v[1] / index->scale, v[2] / index->scale);
-    }
-}
-
 static struct vec3 face_normal(const struct triangle *t)
 {
     return vec3_cross(vec3_sub(t->p[1], t->p[0]), vec3_sub(t->p[2], t->p[0])); /* as long as twice the area */
@@ -130,58 +119,49 @@ static void weld(struct model *model, const struct index *points)
     model->count = kept;
 }
 
-static bool write_text(const char *folder, const char *name, const char *end, char *text, size_t size, struct error *err)
+/* Out: at  for each corner, where its vector is in the list. Returns the list. */
+static struct vec3 *number(size_t (*at)[3], const struct index *index, const struct vec3 *p, size_t triangles)
 {
-    char *path = string_format("%s/%s.%s", folder, name, end);
-    bool good = path && file_write(path, text, size, err);
-    free(path);
-    free(text);
-    return good;
+    struct vec3 *list = malloc((index->count + 1) * sizeof *list);
+    if (!list) abort();
+    for (size_t i = 0; i < index->count; i++) {
+        const int *v = index->cells[i].v;
+        list[i] = vec3(v[0] / index->scale, v[1] / index->scale, v[2] / index->scale);
+    }
+    for (size_t c = 0; c < 3 * triangles; c++) at[c / 3][c % 3] = find(index, p[c]);
+    return list;
 }
 
-bool write_model(struct model *model, const char *folder, const char *name, const struct palette *palette,
-                 struct error *err)
+struct surface make_surface(struct model *model)
 {
+    struct surface surface;
     struct vec3 *p = malloc(3 * model->count * sizeof *p), *n = malloc(3 * model->count * sizeof *n);
     if (!p || !n) abort();
     for (size_t c = 0; c < 3 * model->count; c++) p[c] = model->triangles[c / 3].p[c % 3];
     struct index points = index_of(p, 3 * model->count, 1e4);
     weld(model, &points);
+    for (size_t c = 0; c < 3 * model->count; c++) p[c] = model->triangles[c / 3].p[c % 3];
     corner_normals(n, model, &points);
     struct index normals = index_of(n, 3 * model->count, 1e3);
-
-    char *text;
-    size_t size;
-    FILE *f = open_memstream(&text, &size);
-    if (!f) abort();
-    fprintf(f, "# Made by Staffage's scenes/models/make-models: free for any use. Metres, z up, front +x.\nmtllib %s.mtl\n", name);
-    write_index(f, "v", &points);
-    write_index(f, "vn", &normals);
-    bool used[MATERIAL_COUNT] = { false };
-    for (int m = 0; m < MATERIAL_COUNT; m++) {
-        for (size_t i = 0; i < model->count; i++) {
-            if ((int)model->triangles[i].material != m) continue;
-            if (!used[m]) fprintf(f, "usemtl %s\n", material_name[m]);
-            used[m] = true;
-            fputc('f', f);
-            for (size_t k = 0; k < 3; k++)
-                fprintf(f, " %zu//%zu", 1 + find(&points, model->triangles[i].p[k]), 1 + find(&normals, n[3 * i + k]));
-            fputc('\n', f);
-        }
-    }
-    fclose(f);
-    bool good = write_text(folder, name, "obj", text, size, err);
-
-    f = open_memstream(&text, &size);
-    if (!f) abort();
-    for (int m = 0; m < MATERIAL_COUNT; m++) {
-        const double *rgb = palette->rgb[m];
-        if (used[m]) fprintf(f, "newmtl %s\nKd %g %g %g\n", material_name[m], rgb[0], rgb[1], rgb[2]);
-    }
-    fclose(f);
-    good = write_text(folder, name, "mtl", text, size, err) && good;
+    surface.point = malloc(model->count * sizeof *surface.point);
+    surface.normal = malloc(model->count * sizeof *surface.normal);
+    if (!surface.point || !surface.normal) abort();
+    surface.points = number(surface.point, &points, p, model->count);
+    surface.normals = number(surface.normal, &normals, n, model->count);
+    surface.point_count = points.count;
+    surface.normal_count = normals.count;
     free(points.cells), free(normals.cells), free(p), free(n);
+    return surface;
+}
+
+void surface_release(struct surface *surface)
+{
+    free(surface->points), free(surface->normals), free(surface->point), free(surface->normal);
+    *surface = (struct surface){ 0 };
+}
+
+void model_release(struct model *model)
+{
     free(model->triangles);
     *model = (struct model){ 0 };
-    return good;
 }

@@ -1,5 +1,6 @@
 /* People: bones whose balls blend into one another, a piece of cloth at a time, and a mesh of each surface. */
 #include "scenes/models/mesh.h"
+#include "scenes/models/skeleton.h"
 
 #include <assert.h>
 
@@ -7,7 +8,7 @@
 
 /* A bone: a ball of radius r[0] at p[0] blended into one of r[1] at p[1]. depth flattens it front to back. */
 struct bone { struct vec3 p[2]; double r[2], depth; };
-struct flesh { struct bone bones[12]; int count; double blend_m, folds_m, cell_m, hem_z; enum material material; };
+struct flesh { struct bone bones[12]; int count; double blend_m, folds_m, cell_m, hem_z; enum material material; enum part part; };
 
 static void add_bone(struct flesh *flesh, struct vec3 a, double ra, struct vec3 b, double rb, double depth)
 {
@@ -86,6 +87,7 @@ static void add_flesh(struct model *model, const struct flesh *flesh)
                         d[(axis + 1) % 3] = at == 0 || at == 3, d[(axis + 2) % 3] = at < 2;
                         q[s] = vertex[i - d[0]][j - d[1]][k - d[2]];
                     }
+                    model->part = flesh->part;
                     add_quad(model, flesh->material, q);
                 }
 }
@@ -101,25 +103,29 @@ static const struct joints joints[] = {
     [WALKING] = {
         { { 0.19, 0.09, 0.52 }, { -0.04, 0.09, 0.49 } }, { { 0.31, 0.085, 0.10 }, { -0.32, 0.085, 0.165 } },
         { { -0.13, 0.24, 1.18 }, { 0.05, 0.24, 1.17 } }, { { -0.06, 0.25, 0.93 }, { 0.22, 0.20, 0.99 } }, { -0.02, 0.085 }
+    },
+    [READY] = { /* knees bend in the plane of hip, ankle and front */
+        { { 0.012, 0.115, 0.51 }, { 0.012, 0.115, 0.51 } }, { { 0, 0.15, 0.085 }, { 0, 0.15, 0.085 } },
+        { { -0.025, 0.235, 1.15 }, { -0.025, 0.235, 1.15 } }, { { 0.025, 0.245, 0.90 }, { 0.025, 0.245, 0.90 } }, { 0, 0 }
     }
 };
 
 static const struct frame {
-    double shoulder_y, girth[4], limb, hem_z; /* girth: radius at hem, waist, chest, shoulders */
+    double shoulder_y, girth[4], limb, hem_z, stride; /* girth: radius at hem, waist, chest, shoulders */
     bool long_hair;
 } frames[] = {
-    [MAN] = { 0.18, { 0.132, 0.115, 0.122, 0.066 }, 1, 0.85, false },
-    [WOMAN] = { 0.15, { 0.136, 0.098, 0.112, 0.058 }, 0.92, 0.83, true }
+    [MAN] = { 0.18, { 0.132, 0.115, 0.122, 0.066 }, 1, 0.85, 1.42, false },
+    [WOMAN] = { 0.15, { 0.136, 0.098, 0.112, 0.058 }, 0.92, 0.83, 1.36, true }
 };
 
-void make_person(struct model *model, enum build build, enum stance stance, double height_m)
+void make_person(struct model *model, struct skeleton *skeleton, enum build build, enum stance stance, double height_m)
 {
     const struct frame *frame = &frames[build];
     const struct joints *joint = &joints[stance];
-    struct flesh trousers = { .blend_m = 0.04, .folds_m = 0.004, .cell_m = 0.032, .material = TROUSERS };
+    struct flesh trousers = { .blend_m = 0.04, .folds_m = 0.004, .cell_m = 0.032, .material = TROUSERS, .part = LEGS };
     struct flesh jacket = { .blend_m = 0.08, .folds_m = 0.004, .cell_m = 0.03, .hem_z = frame->hem_z, .material = JACKET };
-    struct flesh skin = { .blend_m = 0.03, .cell_m = 0.02, .material = SKIN };
-    struct flesh hair = { .blend_m = 0.04, .folds_m = 0.002, .cell_m = 0.025, .material = HAIR };
+    struct flesh skin = { .blend_m = 0.03, .cell_m = 0.02, .material = SKIN, .part = HEAD_PART };
+    struct flesh hair = { .blend_m = 0.04, .folds_m = 0.002, .cell_m = 0.025, .material = HAIR, .part = HEAD_PART };
     double limb = frame->limb, hip_z = stance == WALKING ? 0.92 : 0.94;
     size_t first = model->count;
 
@@ -132,9 +138,10 @@ void make_person(struct model *model, enum build build, enum stance stance, doub
         add_bone(&trousers, hip, 0.092 * limb, knee, 0.07 * limb, 1);
         add_bone(&trousers, knee, 0.07 * limb, vec3_add(ankle, vec3(0, 0, -0.02)), 0.06 * limb, 1.1);
 
-        struct flesh shoe = { .blend_m = 0.03, .cell_m = 0.025, .material = SHOES };
+        struct flesh shoe = { .blend_m = 0.03, .cell_m = 0.025, .material = SHOES, .part = SHOE };
         struct vec3 heel = vec3_add(ankle, vec3(-0.04, 0, -0.045)), toe = vec3_add(ankle, vec3(0.155, y * 0.03, -0.05));
         toe.z -= joint->toe_drop_m[side];
+        if (stance == READY) shoe.hem_z = 0.008; /* a flat sole, to be rolled over */
         add_bone(&shoe, heel, 0.043, toe, 0.036, 1);
         add_bone(&shoe, heel, 0.043, ankle, 0.045, 1);
         add_flesh(model, &shoe);
@@ -143,16 +150,21 @@ void make_person(struct model *model, enum build build, enum stance stance, doub
                                  { -0.01, y * frame->shoulder_y * 0.7, 1.415 } };
         for (int k = 0; k < 3; k++) add_bone(&jacket, trunk[k], frame->girth[k], trunk[k + 1], frame->girth[k + 1], 1);
 
-        struct flesh sleeve = { .blend_m = 0.03, .folds_m = 0.004, .cell_m = 0.03, .material = JACKET };
+        struct flesh sleeve = { .blend_m = 0.03, .folds_m = 0.004, .cell_m = 0.03, .material = JACKET, .part = ARM };
         struct vec3 shoulder = vec3(-0.01, y * frame->shoulder_y, 1.40), elbow = AT(joint->elbow[side]);
         struct vec3 wrist = AT(joint->wrist[side]), hand = vec3_unit(vec3_sub(wrist, elbow));
         add_bone(&sleeve, shoulder, 0.066 * limb, elbow, 0.053 * limb, 1);
         add_bone(&sleeve, elbow, 0.053 * limb, wrist, 0.043 * limb, 1);
         add_flesh(model, &sleeve);
-        struct flesh fist = { .blend_m = 0.02, .cell_m = 0.025, .material = SKIN };
+        struct flesh fist = { .blend_m = 0.02, .cell_m = 0.025, .material = SKIN, .part = FIST };
         add_bone(&fist, vec3_add(wrist, vec3_scale(hand, 0.03)), 0.03 * limb, vec3_add(wrist, vec3_scale(hand, 0.12)),
                  0.032 * limb, 1.2);
         add_flesh(model, &fist);
+        if (skeleton) {
+            struct vec3 limbs[LIMB_COUNT] = { [UPPER_ARM] = shoulder, [FOREARM] = elbow, [HAND] = wrist, [THIGH] = hip, [SHIN] = knee,
+                                              [FOOT] = ankle, [TOES] = vec3_add(heel, vec3_scale(vec3_sub(toe, heel), 0.7)) };
+            for (int k = 0; k < LIMB_COUNT; k++) skeleton->at[LIMB(side, k)] = limbs[k];
+        }
     }
     add_bone(&jacket, vec3(-0.01, 0, 1.42), 0.09, vec3(0.005, 0, 1.50), 0.06, 1); /* collar */
     add_flesh(model, &trousers);
@@ -176,6 +188,11 @@ void make_person(struct model *model, enum build build, enum stance stance, doub
             high = fmax(high, model->triangles[i].p[k].z);
         }
     double scale = height_m / (high - low);
+    if (skeleton) {
+        skeleton->at[HIPS] = vec3(0, 0, 0.96), skeleton->at[SPINE] = vec3(0, 0, 1.10);
+        skeleton->at[CHEST] = vec3(0, 0, 1.26), skeleton->at[HEAD] = vec3(0.005, 0, 1.50);
+        skeleton->scale = scale, skeleton->ground_z = low, skeleton->stride = frame->stride;
+    }
     for (size_t i = first; i < model->count; i++)
         for (int k = 0; k < 3; k++)
             model->triangles[i].p[k] = vec3_scale(vec3_sub(model->triangles[i].p[k], vec3(0, 0, low)), scale);
