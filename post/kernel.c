@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #define STEPS_PER_PX 4
-#define STRIPS 32 /* that a pixel of a disc is integrated in */
+#define STRIPS 128 /* that a pixel of a disc is integrated in */
 
 static bool allocate(struct kernel *kernel, size_t capacity, struct error *err)
 {

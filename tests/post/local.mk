@@ -53,3 +53,23 @@ check_PROGRAMS += tests/post/marker.test
 tests_post_marker_test_SOURCES = %D%/marker.c tests/tap.h
 nodist_EXTRA_tests_post_marker_test_SOURCES = dummy.cxx
 tests_post_marker_test_LDADD = post/libpost.a $(GEN_LIBS)
+
+check_PROGRAMS += tests/post/mist.test
+tests_post_mist_test_SOURCES = %D%/mist.c %D%/layers.h tests/tap.h
+nodist_EXTRA_tests_post_mist_test_SOURCES = dummy.cxx
+tests_post_mist_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/motion.test
+tests_post_motion_test_SOURCES = %D%/motion.c %D%/layers.h tests/tap.h
+nodist_EXTRA_tests_post_motion_test_SOURCES = dummy.cxx
+tests_post_motion_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/defocus.test
+tests_post_defocus_test_SOURCES = %D%/defocus.c %D%/layers.h tests/tap.h
+nodist_EXTRA_tests_post_defocus_test_SOURCES = dummy.cxx
+tests_post_defocus_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/softness.test
+tests_post_softness_test_SOURCES = %D%/softness.c %D%/layers.h tests/tap.h
+nodist_EXTRA_tests_post_softness_test_SOURCES = dummy.cxx
+tests_post_softness_test_LDADD = $(POST_LIBS)

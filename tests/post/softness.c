@@ -1,0 +1,33 @@
+#include "post/softness.h"
+
+#include "tests/post/layers.h"
+#include "tests/tap.h"
+
+#define W 41
+#define H 21
+
+int main(void)
+{
+    struct image object = filled(W, H, 4, 0), light = filled(W, H, 3, 0);
+    struct error err = ERROR_NONE;
+    image_f32(&object, 20, 10)[3] = 1;
+    image_f32(&light, 20, 10)[0] = -0.5f;
+    if (!OK(softness_blur(&object, &light, NULL, NULL, 1, &err), "layers are softened")) return tap_done();
+    NEAR(sum_of(&object, 3), 1, 1e-6, "and are no more and no less");
+    /* sum k^2 exp(-k^2/2) / sum exp(-k^2/2) for k from -3 to 3 */
+    NEAR(variance_of(&object, 3, 20), 0.995909, 1e-4, "by a Gaussian of this standard deviation, to 3 of them");
+    NEAR(variance_of(&light, 0, 20), 0.995909, 1e-4, "entities and light on the ground alike");
+    NEAR((double)image_f32(&object, 21, 10)[3] / (double)image_f32(&object, 20, 10)[3], exp(-0.5), 1e-5, "which falls as it must");
+    OK(image_f32(&object, 24, 10)[3] == 0 && image_f32(&light, 20, 14)[0] == 0, "beyond, nothing changes");
+    OK(image_f32(&light, 20, 10)[1] == 0, "nor in other channels");
+
+    fill(&object, 10, 0, 30, H, (float[]){ 0.2f, 0.2f, 0.2f, 1 });
+    struct image hidden = hidden_between(W, H, 20, 30);
+    OK(softness_blur(&object, &light, &hidden, &hidden, 1.5, &err), "of what is half hidden");
+    NEAR((double)image_f32(&object, 19, 10)[0], 0.2, 1e-5, "what can be seen is not darkened");
+    OK(image_f32(&object, 31, 10)[3] == 0, "and what cannot does not come out");
+    image_release(&hidden);
+    image_release(&object);
+    image_release(&light);
+    return tap_done();
+}
