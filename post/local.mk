@@ -1,4 +1,4 @@
-# staffage-post: from passes and photograph to the dataset.
+# staffage-post: from passes and photograph to the dataset; staffage-stats: what is in it.
 noinst_LIBRARIES += post/libpost.a
 post_libpost_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(JANSSON_CFLAGS)
 post_libpost_a_SOURCES = \
@@ -23,6 +23,7 @@ post_libpost_a_SOURCES = \
   %D%/semantic.c %D%/semantic.h \
   %D%/softness.c %D%/softness.h \
   %D%/spread.c %D%/spread.h \
+  %D%/stats.c %D%/stats.h %D%/stats_text.c \
   %D%/transfer.h %D%/transfer_caught.c \
   %D%/transfer_alpha.c %D%/transfer_layers.c %D%/transfer_ratio.c %D%/transfer_threshold.c \
   %D%/window.c %D%/window.h
@@ -34,3 +35,8 @@ nodist_EXTRA_staffage_post_SOURCES = dummy.cxx
 staffage_post_LDADD = $(POST_LIBS)
 # It starts once a frame: libraries that it does not use are not loaded.
 staffage_post_LDFLAGS = $(AM_LDFLAGS) -Wl,--as-needed
+
+bin_PROGRAMS += staffage-stats
+staffage_stats_SOURCES = %D%/stats_main.c
+nodist_EXTRA_staffage_stats_SOURCES = dummy.cxx
+staffage_stats_LDADD = $(POST_LIBS)
