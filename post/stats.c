@@ -7,6 +7,7 @@
 #include "post/input.h"
 #include "post/semantic.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
