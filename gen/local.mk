@@ -51,12 +51,15 @@ gen_libgen_a_SOURCES = \
   %D%/scene/schema_words.c %D%/scene/schema_words.h \
   %D%/scene/yaml.c %D%/scene/yaml.h \
   %D%/stage.c %D%/stage.h \
+  %D%/trace/backdrop.c %D%/trace/backdrop.h \
+  %D%/trace/cast.c %D%/trace/cast.h \
   %D%/trace/footprint.c %D%/trace/footprint.h \
   %D%/trace/label.c %D%/trace/label.h \
   %D%/trace/polygon.c %D%/trace/polygon.h \
   %D%/trace/rays.c %D%/trace/rays.h \
   %D%/trace/screen.c %D%/trace/screen.h \
   %D%/trace/shape.c %D%/trace/shape.h \
+  %D%/trace/share.c %D%/trace/share.h \
   %D%/trace/trace.c %D%/trace/trace.h \
   %D%/world/entity.c %D%/world/entity.h \
   %D%/world/ground.c %D%/world/ground.h \

@@ -116,8 +116,13 @@ tests_gen_trace_test_SOURCES = %D%/gen/trace.c %D%/gen/solid.h %D%/tap.h
 nodist_EXTRA_tests_gen_trace_test_SOURCES = dummy.cxx
 tests_gen_trace_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/trace_place.test
+tests_gen_trace_place_test_SOURCES = %D%/gen/trace_place.c %D%/gen/place.h %D%/gen/solid.h %D%/tap.h
+nodist_EXTRA_tests_gen_trace_place_test_SOURCES = dummy.cxx
+tests_gen_trace_place_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/trace_povray.test
-tests_gen_trace_povray_test_SOURCES = %D%/gen/trace_povray.c %D%/gen/solid.h %D%/tap.h
+tests_gen_trace_povray_test_SOURCES = %D%/gen/trace_povray.c %D%/gen/place.h %D%/gen/solid.h %D%/tap.h
 nodist_EXTRA_tests_gen_trace_povray_test_SOURCES = dummy.cxx
 tests_gen_trace_povray_test_LDADD = $(GEN_LIBS)
 

@@ -1,5 +1,7 @@
 #include "gen/trace/footprint.h"
 
+#include "gen/world/prism.h"
+
 #include <math.h>
 #include <stdbool.h>
 
@@ -109,4 +111,11 @@ struct rect footprint(const struct camera *camera, struct pose camera_from_box, 
                       clamp_px(ceil(span.x1), limits_px.x0, limits_px.x1),
                       clamp_px(ceil(span.y1), limits_px.y0, limits_px.y1) };
     return r.x0 < r.x1 && r.y0 < r.y1 ? r : (struct rect){ 0, 0, 0, 0 };
+}
+
+struct rect footprint_prism(const struct camera *camera, struct pose camera_from_world, const struct prism *prism)
+{
+    struct box3 box = prism_bounds(prism);
+    return footprint(camera, camera_from_world, vec3(box.low[0], box.low[1], box.low[2]),
+                     vec3(box.high[0], box.high[1], box.high[2]), (struct rect){ 0, 0, camera->width_px, camera->height_px });
 }

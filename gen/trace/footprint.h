@@ -2,6 +2,7 @@
 #ifndef STAFFAGE_GEN_FOOTPRINT_H
 #define STAFFAGE_GEN_FOOTPRINT_H
 
+#include "gen/world/static_mesh.h"
 #include "lib/camera.h"
 #include "lib/vec.h"
 #include "lib/rect.h"
@@ -12,5 +13,7 @@
  * In: box min_m, max_m in its own coordinates */
 struct rect footprint(const struct camera *camera, struct pose camera_from_box, struct vec3 min_m, struct vec3 max_m,
                       struct rect limits_px);
+/* The same for a prism in world coordinates, within the photograph. */
+struct rect footprint_prism(const struct camera *camera, struct pose camera_from_world, const struct prism *prism);
 
 #endif

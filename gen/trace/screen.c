@@ -2,9 +2,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
-
-#define EDGE_PX 2 /* an entity's soft edge in a rendered picture lies within so many pixels */
 
 double sight_range(struct sight_plane plane, struct vec3 direction)
 {
@@ -48,60 +45,4 @@ void screen_release(struct screen *screen)
     free(screen->samples);
     free(screen->inside);
     *screen = (struct screen){ 0 };
-}
-
-/* Range of the nearest entity whose edge can reach a pixel. */
-static double reach_m(const struct image *ahead, int x, int y)
-{
-    float near = *image_f32(ahead, x, y);
-    if (isfinite(near)) return (double)near;
-    for (int v = y > EDGE_PX ? y - EDGE_PX : 0; v <= y + EDGE_PX && v < ahead->height_px; v++)
-        for (int u = x > EDGE_PX ? x - EDGE_PX : 0; u <= x + EDGE_PX && u < ahead->width_px; u++)
-            near = fminf(near, *image_f32(ahead, u, v));
-    return (double)near;
-}
-
-static uint8_t share(uint64_t hidden_samples)
-{
-    return (uint8_t)lround(255.0 * (64 - __builtin_popcountll(hidden_samples)) / 64);
-}
-
-/* Add the samples of a row at which a screen hides entities, and at which it hides the ground. */
-static void hide_row(uint64_t *of_entities, uint64_t *of_ground, struct screen *screen, struct rays *rays,
-                     const struct image *ahead, struct sight_plane ground, int y)
-{
-    struct rect r = screen->bounds_px;
-    if (y < r.y0 || y >= r.y1) return;
-    polygon_row_samples(&screen->polygon, screen->samples, y, r.x0, r.x1);
-    for (int x = r.x0; x < r.x1; x++) {
-        uint64_t samples = screen->samples[x - r.x0];
-        struct vec3 direction;
-        if (!samples || !rays_get(rays, &direction, x)) continue;
-        double range = sight_range(screen->plane, direction), entity = reach_m(ahead, x, y);
-        double floor_m = sight_range(ground, direction);
-        if (isfinite(entity) && range < entity) of_entities[x] |= samples;
-        if (isfinite(floor_m) && range < floor_m) of_ground[x] |= samples;
-    }
-}
-
-bool screens_share(struct image *visible, struct image *receiver, struct screen *screens, size_t n, struct rays *rays,
-                   const struct image *ahead, struct sight_plane ground, struct error *err)
-{
-    size_t width = (size_t)ahead->width_px;
-    if (!image_init(visible, ahead->width_px, ahead->height_px, 1, PIXEL_U8, err) ||
-        !image_init(receiver, ahead->width_px, ahead->height_px, 1, PIXEL_U8, err))
-        return false;
-    uint64_t *of_entities = malloc(2 * width * sizeof *of_entities), *of_ground = of_entities + width;
-    if (!of_entities) return error_set(err, ERR_MEMORY, "no memory for a row of samples");
-    for (int y = 0; y < ahead->height_px; y++) {
-        memset(of_entities, 0, 2 * width * sizeof *of_entities);
-        rays_begin_row(rays, y);
-        for (size_t k = 0; k < n; k++) hide_row(of_entities, of_ground, &screens[k], rays, ahead, ground, y);
-        for (int x = 0; x < ahead->width_px; x++) {
-            *image_u8(visible, x, y) = share(of_entities[x]);
-            *image_u8(receiver, x, y) = share(of_ground[x]);
-        }
-    }
-    free(of_entities);
-    return true;
 }

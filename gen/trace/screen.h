@@ -7,7 +7,6 @@
 #include "gen/trace/trace.h"
 #include "lib/camera.h"
 #include "lib/error.h"
-#include "lib/image.h"
 #include "lib/rect.h"
 #include "lib/vec.h"
 
@@ -36,12 +35,5 @@ struct screen {
 bool screen_init(struct screen *screen, const struct camera *camera, struct pose world_from_camera,
                  const struct occluder *occluder, struct error *err);
 void screen_release(struct screen *screen);
-
-/* What of entities and of the ground screens leave, as 255 times the share of each pixel.
- * Out: visible, receiver  initialized here
- * In:  ahead  F32 1: range of the nearest entity at each pixel, INFINITY where there is none
- * Err: ERR_MEMORY; outputs may have been initialized */
-bool screens_share(struct image *visible, struct image *receiver, struct screen *screens, size_t n, struct rays *rays,
-                   const struct image *ahead, struct sight_plane ground, struct error *err);
 
 #endif

@@ -1,15 +1,14 @@
 #include "gen/trace/trace.h"
 
-#include "gen/trace/footprint.h"
+#include "gen/trace/backdrop.h"
+#include "gen/trace/cast.h"
 #include "gen/trace/rays.h"
 #include "gen/trace/screen.h"
 #include "gen/trace/shape.h"
+#include "gen/trace/share.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
-
-#define OUTSIDE_RAYS 4000000.0 /* at most about so many for what of an entity lies outside the photograph */
 
 struct tracer {
     RTCDevice device;
@@ -56,20 +55,7 @@ static const struct shape *tracer_shape(const struct tracer *tracer, const struc
     return NULL;
 }
 
-/* An entity in this frame. */
-struct cast {
-    const struct shape *shape;
-    struct shape *own;    /* the shape, where the tracer does not hold it */
-    struct pose entity_from_camera;
-    struct rect reach_px; /* where it can be, beyond the photograph as well */
-    struct rect frame_px; /* the part of that inside the photograph */
-    uint8_t *mask;        /* (h,w) of frame_px */
-    float *depth_m;
-    int stride_px;   /* each ray outside stands for stride x stride pixels */
-    int64_t outside; /* amodal pixels outside */
-    struct rect outside_px;
-};
-
+/* Things in front are counted as: entities, then screens, then the place. */
 struct frame {
     struct rays rays;
     const struct entity *entities;
@@ -77,110 +63,58 @@ struct frame {
     size_t cast_count;
     struct screen *screens;
     size_t screen_count;
-    struct sight_plane ground;
-    double *range_m;       /* (width) of the nearest entity in a row */
-    struct vec3 *probe;    /* (3 width) directions of rays at an entity, in its coordinates */
-    double *probe_z;       /* the same rays' z in the camera */
-    double *probe_range_m; /* where they meet it */
-    int *probe_x;
-    ptrdiff_t *front;   /* (width) what is in front: -1, an entity, or cast_count + a screen */
-    int64_t *counts;    /* (cast_count, cast_count + screen_count): pixels of an entity by what is in front there */
-    struct image ahead; /* F32 1, only with screens: range of the nearest entity, infinite where there is none */
+    struct backdrop backdrop;  /* with a place */
+    struct sight_plane ground; /* of normal 0: none */
+    struct probes probes;
+    double *range_m;    /* (width) of the nearest entity in a row */
+    ptrdiff_t *front;   /* (width) the thing in front; -1: none */
+    size_t things;
+    int64_t *counts;    /* (cast_count, things): pixels of an entity by what is in front there */
+    struct image ahead; /* F32 1, where something static can hide: range of the nearest entity, INFINITY where there is none */
 };
-
-/* Grow a rectangle to hold side x side pixels from (x, y) on as well. */
-static void rect_add(struct rect *r, int x, int y, int side)
-{
-    *r = rect_unite(*r, (struct rect){ x, y, x + side, y + side });
-}
-
-static bool cast_init(struct cast *cast, const struct tracer *tracer, const struct camera *camera,
-                      struct pose world_from_camera, const struct entity *entity, struct error *err)
-{
-    cast->shape = tracer_shape(tracer, entity->model);
-    if (!cast->shape) {
-        if (!shape_create(&cast->own, tracer->device, entity->model, err)) return false;
-        cast->shape = cast->own;
-    }
-    cast->entity_from_camera = pose_compose(pose_inverse(entity->world_from_entity), world_from_camera);
-    struct vec3 min_m, max_m;
-    if (!shape_bounds(cast->shape, &min_m, &max_m)) return true;
-    int w = camera->width_px, h = camera->height_px;
-    cast->reach_px = footprint(camera, pose_inverse(cast->entity_from_camera), min_m, max_m,
-                               (struct rect){ -w, -h, 2 * w, 2 * h });
-    cast->frame_px = rect_intersect(cast->reach_px, (struct rect){ 0, 0, w, h });
-    size_t area = rect_area(cast->frame_px);
-    double outside = (double)(rect_area(cast->reach_px) - area);
-    cast->stride_px = outside > OUTSIDE_RAYS ? (int)ceil(sqrt(outside / OUTSIDE_RAYS)) : 1;
-    if (area == 0) return true;
-    cast->mask = calloc(area, sizeof *cast->mask);
-    cast->depth_m = malloc(area * sizeof *cast->depth_m);
-    if (!cast->mask || !cast->depth_m) return error_set(err, ERR_MEMORY, "no memory for the mask of %s", entity->name);
-    for (size_t i = 0; i < area; i++) cast->depth_m[i] = NAN;
-    return true;
-}
 
 static bool frame_init(struct frame *frame, const struct tracer *tracer, const struct trace_input *in, struct error *err)
 {
     size_t width = (size_t)in->camera->width_px, entities = in->entity_count, occluders = in->occluder_count;
-    if (!rays_init(&frame->rays, in->camera, err)) return false;
+    if (!rays_init(&frame->rays, in->camera, err) || !probes_init(&frame->probes, in->camera->width_px, err)) return false;
     frame->entities = in->entities;
+    frame->things = entities + occluders + 1;
     frame->casts = calloc(entities + 1, sizeof *frame->casts);
     frame->screens = calloc(occluders + 1, sizeof *frame->screens);
     frame->range_m = malloc(width * sizeof *frame->range_m);
     frame->front = malloc(width * sizeof *frame->front);
-    frame->counts = calloc(entities * (entities + occluders) + 1, sizeof *frame->counts);
-    frame->probe = malloc(3 * width * sizeof *frame->probe);
-    frame->probe_z = malloc(3 * width * sizeof *frame->probe_z);
-    frame->probe_range_m = malloc(3 * width * sizeof *frame->probe_range_m);
-    frame->probe_x = malloc(3 * width * sizeof *frame->probe_x);
-    if (!frame->casts || !frame->screens || !frame->range_m || !frame->front || !frame->counts || !frame->probe ||
-        !frame->probe_z || !frame->probe_range_m || !frame->probe_x)
+    frame->counts = calloc(entities * frame->things + 1, sizeof *frame->counts);
+    if (!frame->casts || !frame->screens || !frame->range_m || !frame->front || !frame->counts)
         return error_set(err, ERR_MEMORY, "no memory for the labels of a frame");
-    frame->ground = sight_plane(in->ground->normal, in->ground->offset_m, in->world_from_camera);
-    frame->cast_count = entities;
-    for (size_t i = 0; i < entities; i++)
-        if (!cast_init(&frame->casts[i], tracer, in->camera, in->world_from_camera, &in->entities[i], err)) return false;
-    frame->screen_count = occluders;
-    for (size_t i = 0; i < occluders; i++)
-        if (!screen_init(&frame->screens[i], in->camera, in->world_from_camera, &in->occluders[i], err)) return false;
-    return occluders == 0 || image_init(&frame->ahead, in->camera->width_px, in->camera->height_px, 1, PIXEL_F32, err);
+    if (in->ground) frame->ground = sight_plane(in->ground->normal, in->ground->offset_m, in->world_from_camera);
+    for (; frame->cast_count < entities; frame->cast_count++) {
+        const struct entity *entity = &in->entities[frame->cast_count];
+        if (!cast_init(&frame->casts[frame->cast_count], tracer_shape(tracer, entity->model), tracer->device, in->camera,
+                       in->world_from_camera, entity, err))
+            return false;
+    }
+    for (; frame->screen_count < occluders; frame->screen_count++)
+        if (!screen_init(&frame->screens[frame->screen_count], in->camera, in->world_from_camera,
+                         &in->occluders[frame->screen_count], err))
+            return false;
+    if (in->place && !backdrop_init(&frame->backdrop, in->place, in->camera, in->world_from_camera, err)) return false;
+    return (occluders == 0 && !in->place) ||
+           image_init(&frame->ahead, in->camera->width_px, in->camera->height_px, 1, PIXEL_F32, err);
 }
 
 static void frame_release(struct frame *frame)
 {
-    for (size_t i = 0; i < frame->cast_count; i++) {
-        shape_destroy(frame->casts[i].own);
-        free(frame->casts[i].mask);
-        free(frame->casts[i].depth_m);
-    }
-    for (size_t i = 0; i < frame->screen_count; i++) screen_release(&frame->screens[i]);
+    for (size_t i = 0; i <= frame->cast_count && frame->casts; i++) cast_release(&frame->casts[i]);
+    for (size_t i = 0; i <= frame->screen_count && frame->screens; i++) screen_release(&frame->screens[i]);
     rays_release(&frame->rays);
-    free(frame->probe);
-    free(frame->probe_z);
-    free(frame->probe_range_m);
-    free(frame->probe_x);
+    probes_release(&frame->probes);
+    backdrop_release(&frame->backdrop);
     free(frame->casts);
     free(frame->screens);
     free(frame->range_m);
     free(frame->front);
     free(frame->counts);
     image_release(&frame->ahead);
-}
-
-/* Rays at one entity, at every stride-th pixel from x0 on in the row that frame->rays is at: fills the probes. */
-static size_t probe_row(struct frame *frame, const struct cast *cast, int x0, int x1, int stride)
-{
-    size_t n = 0;
-    for (int x = x0; x < x1; x += stride) {
-        struct vec3 direction;
-        if (!rays_get(&frame->rays, &direction, x)) continue;
-        frame->probe_x[n] = x;
-        frame->probe_z[n] = direction.z;
-        frame->probe[n++] = mat3_apply(cast->entity_from_camera.rotation, direction);
-    }
-    shape_hits(cast->shape, frame->probe_range_m, cast->entity_from_camera.translation, frame->probe, n);
-    return n;
 }
 
 /* Every entity's mask and depth in a row, and which is nearest. */
@@ -195,22 +129,42 @@ static void trace_row(struct frame *frame, int y)
         struct rect r = cast->frame_px;
         if (y < r.y0 || y >= r.y1) continue;
         size_t row = (size_t)(y - r.y0) * (size_t)(r.x1 - r.x0);
-        size_t n = probe_row(frame, cast, r.x0, r.x1, 1);
-        for (size_t k = 0; k < n; k++) {
-            int x = frame->probe_x[k];
-            double range = frame->probe_range_m[k];
+        cast_probe(&frame->probes, cast, &frame->rays, r.x0, r.x1, 1);
+        for (size_t k = 0; k < frame->probes.n; k++) {
+            int x = frame->probes.x[k];
+            double range = frame->probes.range_m[k];
             if (!isfinite(range)) continue;
             cast->mask[row + (size_t)(x - r.x0)] = 1;
-            cast->depth_m[row + (size_t)(x - r.x0)] = (float)(range * frame->probe_z[k]);
+            cast->depth_m[row + (size_t)(x - r.x0)] = (float)(range * frame->probes.z[k]);
             if (range < frame->range_m[x]) {
                 frame->range_m[x] = range;
                 frame->front[x] = (ptrdiff_t)i;
             }
         }
     }
-    if (frame->screen_count > 0)
+    if (frame->ahead.data)
         for (int x = 0; x < frame->rays.camera->width_px; x++)
             *image_f32(&frame->ahead, x, y) = (float)frame->range_m[x];
+}
+
+/* The place, in front of a row's entities or behind them. */
+static void place_row(struct frame *frame, int y)
+{
+    struct backdrop *backdrop = &frame->backdrop;
+    backdrop_row(backdrop, &frame->rays);
+    struct vec3 eye = backdrop->world_from_camera.translation;
+    for (int x = 0; x < backdrop->width_px; x++) {
+        struct vec3 direction;
+        double range = (double)*image_f32(&backdrop->range, x, y);
+        if (frame->front[x] < 0 || range >= frame->range_m[x] || !rays_get(&frame->rays, &direction, x)) continue;
+        direction = backdrop_direction(backdrop, direction);
+        struct sighted entity = { vec3_add(eye, vec3_scale(direction, frame->range_m[x])), frame->range_m[x], 0 };
+        if (!backdrop_hides(backdrop, direction, range, backdrop->triangle[(size_t)y * (size_t)backdrop->width_px + (size_t)x],
+                            &entity))
+            continue;
+        frame->range_m[x] = range;
+        frame->front[x] = (ptrdiff_t)frame->things - 1;
+    }
 }
 
 /* What screens put in front of a row's entities. */
@@ -236,7 +190,6 @@ static void screen_row(struct frame *frame, int y)
 /* The finished row: whose pixel it is, and what every entity there lies behind. */
 static void label_row(struct frame *frame, struct frame_labels *labels, int y)
 {
-    size_t things = frame->cast_count + frame->screen_count;
     for (int x = 0; x < labels->depth.width_px; x++) *image_f32(&labels->depth, x, y) = NAN;
     for (size_t i = 0; i < frame->cast_count; i++) {
         const struct cast *cast = &frame->casts[i];
@@ -248,34 +201,12 @@ static void label_row(struct frame *frame, struct frame_labels *labels, int y)
             size_t at = row + (size_t)(x - r.x0);
             if (!cast->mask[at]) continue;
             rect_add(&out->mask_px, x, y, 1);
-            frame->counts[i * things + (size_t)frame->front[x]]++;
+            frame->counts[i * frame->things + (size_t)frame->front[x]]++;
             if ((size_t)frame->front[x] != i) continue;
             *image_u16(&labels->instance, x, y) = frame->entities[i].id;
             *image_f32(&labels->depth, x, y) = cast->depth_m[at];
             rect_add(&out->box_visible_px, x, y, 1);
             out->pixels_visible++;
-        }
-    }
-}
-
-/* A row's amodal pixels above, below and beside the photograph. */
-static void trace_outside(struct frame *frame, int y)
-{
-    int width = frame->rays.camera->width_px, height = frame->rays.camera->height_px;
-    bool beside = y >= 0 && y < height;
-    for (size_t i = 0; i < frame->cast_count; i++) {
-        struct cast *cast = &frame->casts[i];
-        struct rect reach = cast->reach_px;
-        if (y < reach.y0 || y >= reach.y1 || (y - reach.y0) % cast->stride_px != 0) continue;
-        int spans[2][2] = { { reach.x0, beside && reach.x1 > 0 ? 0 : reach.x1 },
-                            { reach.x0 > width ? reach.x0 : width, beside ? reach.x1 : 0 } };
-        for (int s = 0; s < 2; s++) {
-            size_t n = probe_row(frame, cast, spans[s][0], spans[s][1], cast->stride_px);
-            for (size_t k = 0; k < n; k++) {
-                if (!isfinite(frame->probe_range_m[k])) continue;
-                rect_add(&cast->outside_px, frame->probe_x[k], y, cast->stride_px);
-                cast->outside += (int64_t)cast->stride_px * cast->stride_px;
-            }
         }
     }
 }
@@ -289,42 +220,28 @@ static int by_pixels(const void *a, const void *b)
 
 static bool list_hiders(const struct frame *frame, struct entity_labels *out, size_t index, struct error *err)
 {
-    size_t things = frame->cast_count + frame->screen_count, n = 0;
+    size_t things = frame->things, n = 0;
     const int64_t *counts = &frame->counts[index * things];
     out->hiders = calloc(things, sizeof *out->hiders);
     if (!out->hiders) return error_set(err, ERR_MEMORY, "no memory for the labels of a frame");
     for (size_t k = 0; k < things; k++) {
         if (k == index || counts[k] == 0) continue;
-        out->hiders[n++] = k < frame->cast_count
-                               ? (struct hider){ HIDER_ENTITY, frame->entities[k].id, frame->entities[k].name, counts[k] }
-                               : (struct hider){ HIDER_OCCLUDER, 0, frame->screens[k - frame->cast_count].occluder->name, counts[k] };
+        struct hider *hider = &out->hiders[n++];
+        if (k < frame->cast_count)
+            *hider = (struct hider){ HIDER_ENTITY, frame->entities[k].id, frame->entities[k].name, counts[k] };
+        else if (k + 1 < things)
+            *hider = (struct hider){ HIDER_OCCLUDER, 0, frame->screens[k - frame->cast_count].occluder->name, counts[k] };
+        else
+            *hider = (struct hider){ HIDER_PLACE, 0, "place", counts[k] };
     }
     out->hider_count = n;
     qsort(out->hiders, n, sizeof *out->hiders, by_pixels);
     return true;
 }
 
-/* Keep of an entity's mask and depth what its pixels need. */
-static bool crop(const struct cast *cast, struct entity_labels *out, struct error *err)
-{
-    size_t w = (size_t)(out->mask_px.x1 - out->mask_px.x0), h = (size_t)(out->mask_px.y1 - out->mask_px.y0);
-    size_t stride = (size_t)(cast->frame_px.x1 - cast->frame_px.x0);
-    out->mask = malloc(w * h * sizeof *out->mask);
-    out->depth_m = malloc(w * h * sizeof *out->depth_m);
-    if (!out->mask || !out->depth_m) return error_set(err, ERR_MEMORY, "no memory for the labels of a frame");
-    for (size_t y = 0; y < h; y++) {
-        size_t from = ((size_t)(out->mask_px.y0 - cast->frame_px.y0) + y) * stride +
-                      (size_t)(out->mask_px.x0 - cast->frame_px.x0);
-        memcpy(out->mask + y * w, cast->mask + from, w * sizeof *out->mask);
-        memcpy(out->depth_m + y * w, cast->depth_m + from, w * sizeof *out->depth_m);
-    }
-    return true;
-}
-
 static bool finish_entity(const struct frame *frame, struct entity_labels *out, size_t index, struct error *err)
 {
-    size_t things = frame->cast_count + frame->screen_count;
-    for (size_t k = 0; k < things; k++) out->pixels_amodal += frame->counts[index * things + k];
+    for (size_t k = 0; k < frame->things; k++) out->pixels_amodal += frame->counts[index * frame->things + k];
     const struct cast *cast = &frame->casts[index];
     out->in_frame = out->pixels_amodal > 0;
     out->pixels_total = out->pixels_amodal + cast->outside;
@@ -332,7 +249,30 @@ static bool finish_entity(const struct frame *frame, struct entity_labels *out, 
     out->visible_fraction = out->pixels_amodal > 0 ? (double)out->pixels_visible / (double)out->pixels_amodal : 0;
     out->truncation = out->pixels_total > 0 ? 1 - (double)out->pixels_amodal / (double)out->pixels_total : 1;
     if (!out->in_frame) return true;
-    return list_hiders(frame, out, index, err) && crop(cast, out, err);
+    return list_hiders(frame, out, index, err) && cast_crop(cast, out, err);
+}
+
+static bool find_shares(struct frame_labels *labels, struct frame *frame, const struct trace_input *in, struct error *err)
+{
+    struct rect *entity_px = calloc(frame->cast_count + 1, sizeof *entity_px);
+    if (!entity_px) return error_set(err, ERR_MEMORY, "no memory for the labels of a frame");
+    for (size_t i = 0; i < frame->cast_count; i++) entity_px[i] = frame->casts[i].frame_px;
+    struct share_input shares = {
+        .rays = &frame->rays, .screens = frame->screens, .screen_count = frame->screen_count, .ground = frame->ground,
+        .backdrop = in->place ? &frame->backdrop : NULL, .receivers = in->receivers, .receiver_count = in->receiver_count,
+        .ahead = &frame->ahead, .entity_px = entity_px, .entity_count = frame->cast_count,
+    };
+    bool ok = shares_trace(&labels->visible, &labels->receiver, &shares, err);
+    free(entity_px);
+    return ok;
+}
+
+/* Give an image away. */
+static struct image take(struct image *image)
+{
+    struct image taken = *image;
+    *image = (struct image){ 0 };
+    return taken;
 }
 
 bool trace_frame(struct frame_labels *labels, struct tracer *tracer, const struct trace_input *in, struct error *err)
@@ -355,16 +295,17 @@ bool trace_frame(struct frame_labels *labels, struct tracer *tracer, const struc
         rays_begin_row(&frame.rays, y);
         if (y >= 0 && y < camera->height_px) {
             trace_row(&frame, y);
+            if (in->place) place_row(&frame, y);
             screen_row(&frame, y);
             label_row(&frame, &out, y);
         }
-        trace_outside(&frame, y);
+        for (size_t i = 0; i < frame.cast_count; i++) cast_outside_row(&frame.casts[i], &frame.probes, &frame.rays);
     }
     for (size_t i = 0; i < in->entity_count; i++)
         if (!finish_entity(&frame, &out.entities[i], i, err)) goto out;
-    if (in->occluder_count > 0 && !screens_share(&out.visible, &out.receiver, frame.screens, frame.screen_count,
-                                             &frame.rays, &frame.ahead, frame.ground, err))
-        goto out;
+    if (frame.ahead.data && !find_shares(&out, &frame, in, err)) goto out;
+    out.place_depth = take(&frame.backdrop.depth);
+    out.place_label = take(&frame.backdrop.label);
     *labels = out;
     ok = true;
 out:
@@ -379,6 +320,8 @@ void frame_labels_release(struct frame_labels *labels)
     image_release(&labels->depth);
     image_release(&labels->visible);
     image_release(&labels->receiver);
+    image_release(&labels->place_depth);
+    image_release(&labels->place_label);
     for (size_t i = 0; i < labels->entity_count; i++) {
         free(labels->entities[i].hiders);
         free(labels->entities[i].mask);

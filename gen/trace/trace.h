@@ -13,6 +13,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* An entity's soft edge in a rendered picture lies within so many pixels of those that it owns. */
+#define EDGE_PX 2
+
 /* Search trees over models: one a model, shared by its entities. */
 struct tracer;
 /* The models are borrowed and must outlive the tracer. Err: ERR_MEMORY */
@@ -55,7 +58,7 @@ struct frame_labels {
     struct image instance;        /* U16 1: entity id, 0 none */
     struct image depth;           /* F32 1: z of the visible entity, NaN elsewhere */
     struct image visible;         /* U8 1: 255 x share (8 x 8 samples) of the nearest entity at this pixel, or within
-                                   * 2 px of it, that nothing static hides; 255 elsewhere; empty without occluders and place */
+                                   * EDGE_PX of it, that nothing static hides; 255 elsewhere; empty without occluders and place */
     struct image receiver;        /* U8 1: the same for what receives shadows: the ground plane, or the place within
                                    * the receivers; empty without occluders and place */
     struct image place_depth;     /* F32 1: z of the place, whatever entity is before it, NaN where there is none;

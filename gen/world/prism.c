@@ -11,6 +11,34 @@ static struct vec2 slope(const struct prism *prism)
     return (struct vec2){ prism->axis.x / prism->axis.z, prism->axis.y / prism->axis.z };
 }
 
+struct box3 prism_bounds(const struct prism *prism)
+{
+    struct vec2 s = slope(prism);
+    struct box3 box = { { INFINITY, INFINITY, prism->base_m + prism->below_m },
+                        { -INFINITY, -INFINITY, prism->base_m + prism->above_m } };
+    for (size_t i = 0; i < prism->corners; i++) {
+        double x = prism->corner_m[i].x, y = prism->corner_m[i].y, from = prism->below_m, to = prism->above_m;
+        box.low[0] = fmin(box.low[0], x + fmin(s.x * from, s.x * to));
+        box.low[1] = fmin(box.low[1], y + fmin(s.y * from, s.y * to));
+        box.high[0] = fmax(box.high[0], x + fmax(s.x * from, s.x * to));
+        box.high[1] = fmax(box.high[1], y + fmax(s.y * from, s.y * to));
+    }
+    return box;
+}
+
+bool prism_contains(const struct prism *prism, struct vec3 p)
+{
+    double h = p.z - prism->base_m;
+    if (h < prism->below_m || h > prism->above_m) return false;
+    struct vec2 s = slope(prism);
+    double x = p.x - s.x * h, y = p.y - s.y * h;
+    for (size_t i = 0; i < prism->corners; i++) {
+        struct vec2 a = prism->corner_m[i], b = prism->corner_m[(i + 1) % prism->corners];
+        if ((b.x - a.x) * (y - a.y) < (b.y - a.y) * (x - a.x)) return false;
+    }
+    return true;
+}
+
 /* p[..][2] as height over the base, x and y as they are seen along the axis. */
 struct sheared { double x, y, h; };
 

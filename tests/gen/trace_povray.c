@@ -1,8 +1,9 @@
-/* The tracer against POV-Ray: the same triangles, each entity glowing in a colour that is its id and its
- * depth, one ray a pixel. */
+/* The tracer against POV-Ray: the same triangles, each entity (and a place among them) glowing in a colour that is its id
+ * and its depth, one ray a pixel. */
 #include "gen/trace/trace.h"
 #include "lib/file.h"
 
+#include "tests/gen/place.h"
 #include "tests/gen/solid.h"
 #include "tests/tap.h"
 
@@ -135,46 +136,78 @@ static void compare(const struct frame_labels *labels, const struct image *pictu
        "depth agrees to the half floats of POV-Ray's file, but where its rays slip between triangles (%d)", slipped);
 }
 
-int main(void)
+#define PLACE_ID 200
+
+/* A hill of 2 n n triangles with bumps, below what stands at z = 0, as one model. */
+static void solid_hill(struct solid *hill, uint32_t n)
+{
+    solid_init(hill, (n + 1) * (n + 1), 2 * n * n);
+    for (uint32_t i = 0; i <= n; i++)
+        for (uint32_t j = 0; j <= n; j++) {
+            double x = -15 + 30.0 * i / n, y = 2 + 28.0 * j / n;
+            double bumps = 0.35 * sin(2.1 * x) * sin(1.7 * y) - 0.5;
+            float p[3] = { (float)x, (float)y, (float)(bumps + 2.1 * exp(-(x - 1.2) * (x - 1.2) - (y - 6) * (y - 6))) };
+            memcpy(hill->mesh.position_m[i * (n + 1) + j], p, sizeof p);
+            hill->mesh.normal[i * (n + 1) + j][2] = 1;
+        }
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t j = 0; j < n; j++) {
+            uint32_t a = i * (n + 1) + j, b = a + n + 1, t[2][3] = { { a, b, a + 1 }, { b, b + 1, a + 1 } };
+            memcpy(hill->mesh.triangle[2 * (i * n + j)], t, sizeof t);
+        }
+    solid_finish(hill);
+}
+
+/* The owner of every pixel and its depth, the place's own pixels among them. */
+static void add_place(struct frame_labels *labels)
+{
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            float z = *image_f32(&labels->place_depth, x, y);
+            if (*image_u16(&labels->instance, x, y) != 0 || isnan(z)) continue;
+            *image_u16(&labels->instance, x, y) = PLACE_ID;
+            *image_f32(&labels->depth, x, y) = z;
+        }
+}
+
+/* Trace and render the same entities, the last of which is the place when there is one, and compare. */
+static void hold_together(struct entity *entities, size_t n, bool with_place)
 {
     struct error err = ERROR_NONE;
-    struct solid box, egg, plate;
-    solid_box(&box, 4.5, 1.8, 1.5);
-    solid_egg(&egg, 4, 2, 3, 24);
-    solid_plate(&plate, 5, 4);
     struct pose pose = pitched();
-    static const struct {
-        const char *name;
-        double x, y, turn;
-    } at[4] = { { "a box", 0.5, 8, 0.7 },
-                { "an egg behind it", 3, 14, 2.1 },
-                { "a plate behind both", 4, 19, -1.2 },
-                { "a box over the border", -1.2, 4.2, -0.4 } };
-    const struct model *models[4] = { &box.model, &egg.model, &plate.model, &box.model };
-    struct entity entities[4];
-    for (int i = 0; i < 4; i++) {
-        double c = cos(at[i].turn), s = sin(at[i].turn);
-        entities[i] = (struct entity){ .id = (uint16_t)(3 * i + 2),
-                                       .name = at[i].name,
-                                       .model = models[i],
-                                       .world_from_entity = { { { { c, -s, 0 }, { s, c, 0 }, { 0, 0, 1 } } },
-                                                              { at[i].x, at[i].y, 0 } } };
-    }
+    const struct model *models[8];
     struct tracer *tracer = NULL;
     struct frame_labels labels = { 0 };
-    OK(tracer_create(&tracer, models, 3, &err) &&
-           trace_frame(&labels, tracer, &(struct trace_input){ .camera = &camera, .world_from_camera = pose, .ground = &flat,
-                                                               .entities = entities, .entity_count = 4 }, &err),
-       "four entities are traced%s", err.text);
+    struct static_mesh *mesh = NULL;
+    struct place place = { 0 };
+    size_t traced = with_place ? n - 1 : n;
+    for (size_t i = 0; i < traced; i++) models[i] = entities[i].model;
+    if (with_place) {
+        const struct mesh *m = entities[traced].model->meshes;
+        place_add(&place, (const float(*)[3])m->position_m, m->vertices, (const uint32_t(*)[3])m->triangle, m->triangles, 0);
+    }
+    OK((!with_place || place_mesh(&mesh, &place, false, &err)) && tracer_create(&tracer, models, traced, &err) &&
+           trace_frame(&labels, tracer, &(struct trace_input){ .camera = &camera, .world_from_camera = pose,
+                                                               .ground = with_place ? NULL : &flat, .place = mesh,
+                                                               .entities = entities, .entity_count = traced }, &err),
+       "%zu entities are traced%s", traced, err.text);
+    if (with_place) {
+        const struct entity_labels *box = &labels.entities[0];
+        int64_t hidden = 0;
+        for (size_t i = 0; i < box->hider_count; i++)
+            if (box->hiders[i].kind == HIDER_PLACE) hidden = box->hiders[i].pixels;
+        OK(hidden > 500, "the place hides %ld pixels of %s", (long)hidden, entities[0].name);
+        add_place(&labels);
+    }
 
     char folder[] = "trace-povray.XXXXXX";
-    if (!mkdtemp(folder)) return 1;
+    if (!mkdtemp(folder)) exit(1);
     char *scene = string_format("%s/scene.pov", folder), *picture_path = string_format("%s/picture.exr", folder);
     struct image picture = { 0 };
-    bool ok = OK(write_scene(scene, pose, entities, 4) && render(scene, picture_path) &&
+    bool ok = OK(write_scene(scene, pose, entities, n) && render(scene, picture_path) &&
                      image_read(&picture, picture_path, &err) && picture.width_px == WIDTH && picture.type == PIXEL_F32,
                  "POV-Ray renders them%s", err.text);
-    if (ok) compare(&labels, &picture, entities, 4);
+    if (ok) compare(&labels, &picture, entities, n);
     unlink(scene);
     unlink(picture_path);
     rmdir(folder);
@@ -183,8 +216,40 @@ int main(void)
     image_release(&picture);
     frame_labels_release(&labels);
     tracer_destroy(tracer);
+    static_mesh_destroy(mesh);
+    place_free(&place);
+}
+
+int main(void)
+{
+    struct solid box, egg, plate, hill;
+    solid_box(&box, 4.5, 1.8, 1.5);
+    solid_egg(&egg, 4, 2, 3, 24);
+    solid_plate(&plate, 5, 4);
+    solid_hill(&hill, 60);
+    static const struct {
+        const char *name;
+        double x, y, turn;
+    } at[5] = { { "a box", 0.5, 8, 0.7 },
+                { "an egg behind it", 3, 14, 2.1 },
+                { "a plate behind both", 4, 19, -1.2 },
+                { "a box over the border", -1.2, 4.2, -0.4 },
+                { "the place", 0, 0, 0 } };
+    const struct model *models[5] = { &box.model, &egg.model, &plate.model, &box.model, &hill.model };
+    struct entity entities[5];
+    for (int i = 0; i < 5; i++) {
+        double c = cos(at[i].turn), s = sin(at[i].turn);
+        entities[i] = (struct entity){ .id = (uint16_t)(i == 4 ? PLACE_ID : 3 * i + 2),
+                                       .name = at[i].name,
+                                       .model = models[i],
+                                       .world_from_entity = { { { { c, -s, 0 }, { s, c, 0 }, { 0, 0, 1 } } },
+                                                              { at[i].x, at[i].y, 0 } } };
+    }
+    hold_together(entities, 4, false);
+    hold_together(entities, 5, true);
     solid_free(&box);
     solid_free(&egg);
     solid_free(&plate);
+    solid_free(&hill);
     return tap_done();
 }
