@@ -55,6 +55,7 @@ gen_libgen_a_SOURCES = \
   %D%/trace/cast.c %D%/trace/cast.h \
   %D%/trace/footprint.c %D%/trace/footprint.h \
   %D%/trace/label.c %D%/trace/label.h \
+  %D%/trace/motion.c %D%/trace/motion.h \
   %D%/trace/polygon.c %D%/trace/polygon.h \
   %D%/trace/rays.c %D%/trace/rays.h \
   %D%/trace/screen.c %D%/trace/screen.h \

@@ -121,6 +121,11 @@ tests_gen_trace_place_test_SOURCES = %D%/gen/trace_place.c %D%/gen/place.h %D%/g
 nodist_EXTRA_tests_gen_trace_place_test_SOURCES = dummy.cxx
 tests_gen_trace_place_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/motion.test
+tests_gen_motion_test_SOURCES = %D%/gen/motion.c %D%/gen/place.h %D%/gen/solid.h %D%/tap.h
+nodist_EXTRA_tests_gen_motion_test_SOURCES = dummy.cxx
+tests_gen_motion_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/trace_povray.test
 tests_gen_trace_povray_test_SOURCES = %D%/gen/trace_povray.c %D%/gen/place.h %D%/gen/solid.h %D%/tap.h
 nodist_EXTRA_tests_gen_trace_povray_test_SOURCES = dummy.cxx
