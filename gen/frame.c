@@ -200,7 +200,7 @@ static bool trace(struct frame *f, struct error *err)
         .frame = f->name, .photograph = f->photograph, .camera = f->camera,
         .world_from_camera = f->shot->world_from_camera,
         .has_sun = f->context->light->has_sun, .sun_direction = f->context->light->sun_direction,
-        .entities = f->moment.entities, .entity_count = f->moment.n,
+        .entities = f->moment.entities, .entity_count = f->moment.n, .time_s = NAN,
     };
     return trace_frame(&f->labels, f->context->tracer, &in, err) && labels_write(f->folder, &f->labels, &context, err);
 }

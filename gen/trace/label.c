@@ -57,9 +57,10 @@ static json_t *json_hiders(const struct entity_labels *l)
     return list;
 }
 
-static json_t *json_entity(const struct entity *e, const struct entity_labels *l, struct pose camera_from_world)
+static json_t *json_entity(const struct label_context *c, const struct entity_labels *l, size_t index,
+                           struct pose camera_from_world)
 {
-    const struct class_info *info = class_info(e->class_);
+    const struct entity *e = &c->entities[index];
     struct vec3 corners[8], size = vec3_sub(e->model->max_m, e->model->min_m);
     json_t *world = json_array(), *camera = json_array();
     entity_corners(corners, e);
@@ -67,8 +68,9 @@ static json_t *json_entity(const struct entity *e, const struct entity_labels *l
         json_array_append_new(world, json_vec3(corners[i]));
         json_array_append_new(camera, json_vec3(pose_apply(camera_from_world, corners[i])));
     }
-    return json_pack("{s:i, s:s, s:s, s:i, s:s, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:I, s:I, s:I, s:f, s:f, s:o}",
-                     "id", (int)e->id, "name", e->name, "class", info->name, "semantic_id", (int)info->semantic_id,
+    return json_pack("{s:i, s:s, s:s, s:i, s:s, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:I, s:I, s:I, s:f, s:f, s:o, s:o*}",
+                     "id", (int)e->id, "name", e->name, "class", class_info(e->class_)->name,
+                     "semantic_id", (int)palette_entity(c->palette, e->class_).id,
                      "model", e->model_name, "in_frame", (int)l->in_frame,
                      "world_from_entity", json_pose(e->world_from_entity),
                      "camera_from_entity", json_pose(pose_compose(camera_from_world, e->world_from_entity)),
@@ -76,7 +78,8 @@ static json_t *json_entity(const struct entity *e, const struct entity_labels *l
                      "box_visible_px", json_box(l->box_visible_px), "box_amodal_px", json_box(l->box_amodal_px),
                      "pixels_visible", (json_int_t)l->pixels_visible, "pixels_amodal", (json_int_t)l->pixels_amodal,
                      "pixels_total", (json_int_t)l->pixels_total, "visible_fraction", l->visible_fraction,
-                     "truncation", l->truncation, "hidden_by", json_hiders(l));
+                     "truncation", l->truncation, "hidden_by", json_hiders(l),
+                     "velocity_m_s", c->velocity_m_s ? json_vec3(c->velocity_m_s[index]) : NULL);
 }
 
 static bool write_json(const char *folder, const char *name, json_t *json, struct error *err)
@@ -97,9 +100,10 @@ static bool write_labels(const char *folder, const struct frame_labels *labels, 
     struct pose camera_from_world = pose_inverse(c->world_from_camera);
     json_t *entities = json_array();
     for (size_t i = 0; i < labels->entity_count; i++)
-        json_array_append_new(entities, json_entity(&c->entities[i], &labels->entities[i], camera_from_world));
-    json_t *root = json_pack("{s:i, s:s, s:s, s:o, s:o*, s:o}", "version", 1, "frame", c->frame,
-                             "photograph", path_name(c->photograph), "camera", json_camera(c),
+        json_array_append_new(entities, json_entity(c, &labels->entities[i], i, camera_from_world));
+    json_t *root = json_pack("{s:i, s:s, s:s*, s:s*, s:o*, s:o, s:o*, s:o}", "version", 1, "frame", c->frame,
+                             "photograph", c->photograph ? path_name(c->photograph) : NULL, "time", c->time,
+                             "time_s", isnan(c->time_s) ? NULL : json_real(c->time_s), "camera", json_camera(c),
                              "sun_direction", c->has_sun ? json_vec3(c->sun_direction) : NULL, "entities", entities);
     return write_json(folder, "labels.json", root, err);
 }
@@ -182,7 +186,7 @@ static bool remove_stale(const char *amodal_folder, const struct frame_labels *l
 
 static bool write_image(const char *folder, const char *name, const struct image *image, struct error *err)
 {
-    if (!image->data) return true;
+    if (!image || !image->data) return true;
     char *path = string_format("%s/%s", folder, name);
     bool ok = path ? image_write(path, image, err) : error_set(err, ERR_MEMORY, "no memory for a path");
     free(path);
@@ -200,5 +204,8 @@ bool labels_write(const char *folder, const struct frame_labels *labels, const s
            write_image(folder, "depth.exr", &labels->depth, err) &&
            write_image(folder, "visible.png", &labels->visible, err) &&
            write_image(folder, "receiver.png", &labels->receiver, err) &&
+           write_image(folder, "place_depth.exr", &labels->place_depth, err) &&
+           write_image(folder, "place_labels.png", &labels->place_label, err) &&
+           write_image(folder, "motion.exr", context->motion, err) &&
            write_amodal(folder, labels, context, err) && write_labels(folder, labels, context, err);
 }

@@ -196,6 +196,29 @@ static void check_images(void)
     image_release(&receiver);
 }
 
+/* A frame of a scene that moves, in a place that has labels, from where no photograph was taken. */
+static void check_moving(json_t *root)
+{
+    struct error err = ERROR_NONE;
+    json_t *list = json_object_get(root, "entities"), *person = json_array_get(list, 0), *car = json_array_get(list, 1);
+    OK(is_text(root, "time", "2016-06-23T21:32:00.5Z") && real(root, "time_s") == 1.25, "when it is");
+    OK(IS_LIST(json_object_get(person, "velocity_m_s"), 0, 1, -2, 0.5), "how fast an entity moves");
+    OK(root && !json_object_get(root, "photograph"), "a new view names no photograph");
+    OK(whole(person, "semantic_id") == 6 && whole(car, "semantic_id") == 7, "ids are those of the palette");
+    struct image depth = { 0 }, label = { 0 }, motion = { 0 };
+    OK(image_read(&depth, in_folder("place_depth.exr"), &err) && depth.type == PIXEL_F32 && depth.channels == 1 &&
+           *image_f32(&depth, 7, 8) == 31.25f && isnan(*image_f32(&depth, 8, 8)),
+       "place_depth.exr%s", err.text);
+    OK(image_read(&label, in_folder("place_labels.png"), &err) && label.type == PIXEL_U8 && *image_u8(&label, 7, 8) == 3,
+       "place_labels.png%s", err.text);
+    OK(image_read(&motion, in_folder("motion.exr"), &err) && motion.type == PIXEL_F32 && motion.channels == 3 &&
+           image_f32(&motion, 7, 8)[1] == -2.5f && image_f32(&motion, 7, 8)[0] == 0,
+       "motion.exr%s", err.text);
+    image_release(&depth);
+    image_release(&label);
+    image_release(&motion);
+}
+
 int main(void)
 {
     struct error err = ERROR_NONE;
@@ -232,7 +255,7 @@ int main(void)
               trace_frame(&labels, tracer, &(struct trace_input){ .camera = &camera, .world_from_camera = camera_pose, .ground = &flat,
                                                                   .entities = entities, .entity_count = 3, .occluders = &post, .occluder_count = 1 }, &err);
     struct label_context context = {
-        "000042", "/a/street.jpg", &camera, camera_pose, true, { 0, 0.6, 0.8 }, entities, 3
+        "000042", "/a/street.jpg", &camera, camera_pose, true, { 0, 0.6, 0.8 }, entities, 3, .time_s = NAN
     };
 
     strcpy(folder, "label.XXXXXX");
@@ -262,8 +285,32 @@ int main(void)
     context.has_sun = false;
     json_t *dark = labels_write(folder, &labels, &context, &err) ? load("labels.json") : NULL;
     OK(dark && !json_object_get(dark, "sun_direction"), "without a sun there is no direction to it");
+    OK(dark && !json_object_get(dark, "time_s") && !json_object_get(dark, "time") &&
+           !json_object_get(json_array_get(json_object_get(dark, "entities"), 0), "velocity_m_s") &&
+           !file_exists(in_folder("motion.exr")) && !file_exists(in_folder("place_depth.exr")),
+       "nor times, speeds and a place where there are none");
 
-    static const char *const files[] = { "amodal/00009.exr", "amodal/00004.exr", "amodal.json", "labels.json",
+    context.photograph = NULL;
+    context.time = "2016-06-23T21:32:00.5Z";
+    context.time_s = 1.25;
+    context.velocity_m_s = (const struct vec3[3]){ { 1, -2, 0.5 }, { 0, 0, 0 }, { 0, 13.9, 0 } };
+    context.palette = PALETTE_UAVID;
+    struct image motion = { 0 };
+    ok = image_init(&motion, 320, 240, 3, PIXEL_F32, &err) && image_init(&labels.place_depth, 320, 240, 1, PIXEL_F32, &err) &&
+         image_init(&labels.place_label, 320, 240, 1, PIXEL_U8, &err);
+    if (ok) {
+        image_f32(&motion, 7, 8)[1] = -2.5f;
+        *image_f32(&labels.place_depth, 7, 8) = 31.25f;
+        *image_f32(&labels.place_depth, 8, 8) = NAN;
+        *image_u8(&labels.place_label, 7, 8) = 3;
+    }
+    context.motion = &motion;
+    json_t *moving = ok && labels_write(folder, &labels, &context, &err) ? load("labels.json") : NULL;
+    check_moving(moving);
+    OK(page && undocumented(moving, page) == 0, "docs/labels.md has the keys of what moves");
+    image_release(&motion);
+
+    static const char *const files[] = { "place_depth.exr",  "place_labels.png", "motion.exr", "amodal/00009.exr", "amodal/00004.exr", "amodal.json", "labels.json",
                                          "instance.png",     "depth.exr",        "visible.png", "receiver.png" };
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) unlink(in_folder(files[i]));
     rmdir(in_folder("amodal"));
@@ -274,6 +321,7 @@ int main(void)
     json_decref(root);
     json_decref(amodal);
     json_decref(dark);
+    json_decref(moving);
     frame_labels_release(&labels);
     tracer_destroy(tracer);
     solid_free(&near);
