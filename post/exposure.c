@@ -138,10 +138,10 @@ bool exposure_fit_samples(struct exposure *exposure, const struct image *photogr
     e.samples = used;
     free(values.value);
     if (used < SAMPLES_MIN)
-        return error_set(err, ERR_INPUT, "%zu of %zu pixels of sunlit road are in the picture and not saturated, at least %d "
+        return error_set(err, ERR_INPUT, "%zu of %zu pixels of sunlit ground are in the picture and not saturated, at least %d "
                          "are needed: give an exposure patch, or the exposure", used, n, SAMPLES_MIN);
     if (is_black(&e))
-        return error_set(err, ERR_INPUT, "most of %zu pixels of sunlit road are black: give an exposure patch, or the exposure", used);
+        return error_set(err, ERR_INPUT, "most of %zu pixels of sunlit ground are black: give an exposure patch, or the exposure", used);
     *exposure = e;
     return true;
 }

@@ -21,6 +21,38 @@ static void refuses(const struct image *photograph, struct rect patch, const dou
     OK(refused && err.code == ERR_INPUT && !strcmp(err.text, text), "refused: %s", err.text);
 }
 
+/* 188, 137, 99 are 0.50289, 0.25016, 0.12477 in linear light. */
+static void check_samples(void)
+{
+    struct image photograph = { W, H, 3, PIXEL_U8, pixels };
+    const double radiance[3] = { 0.1, 0.2, 0.4 };
+    struct vec2 q[60];
+    struct error err = ERROR_NONE;
+    struct exposure e;
+    paint(0, 10, 188, 137, 99);
+    paint(10, 14, 30, 30, 30);    /* a shadow that nobody knows of */
+    paint(14, 20, 255, 250, 240); /* a white line */
+    for (int i = 0; i < 60; i++) q[i] = (struct vec2){ i % 20 + 0.5, i / 20 + 0.999 };
+    if (!OK(exposure_fit_samples(&e, &photograph, q, 60, radiance, true, &err), "samples here and there are fitted")) return;
+    OK(e.fitted && e.samples == 42, "those that are not saturated");
+    NEAR(e.k[0], 5.0289, 1e-3, "red: median 0.50289 / 0.1, though 12 of them lie in shadow");
+    NEAR(e.k[2], 0.31193, 1e-3, "blue: 0.12477 / 0.4");
+    OK(exposure_fit_samples(&e, &photograph, q, 60, radiance, false, &err) && e.k[0] == e.k[2], "without white balance one k");
+    NEAR(e.k[1], 1.52625, 1e-3, "by luminance: 0.29484 / 0.19318");
+    q[0].x = -0.001, q[1].y = H, q[2].x = NAN;
+    OK(exposure_fit_samples(&e, &photograph, q, 30, radiance, true, &err) && e.samples == 21, "those outside the picture are left out");
+    OK(!exposure_fit_samples(&e, &photograph, q, 28, radiance, true, &err) && err.code == ERR_INPUT &&
+           strstr(err.text, "19 of 28 pixels of sunlit ground are in the picture and not saturated, at least 20 are needed"),
+       "19 are too few: %s", err.text);
+    err = ERROR_NONE;
+    OK(!exposure_fit_samples(&e, &photograph, NULL, 0, radiance, true, &err) && strstr(err.text, "0 of 0"), "and so are none");
+    err = ERROR_NONE;
+    paint(0, 20, 0, 0, 0);
+    OK(!exposure_fit_samples(&e, &photograph, q, 60, radiance, true, &err) && strstr(err.text, "are black"), "black is refused: %s", err.text);
+    err = ERROR_NONE;
+    OK(!exposure_fit_samples(&e, &photograph, q, 60, (double[]){ 0, 1, 1 }, true, &err) && strstr(err.text, "no radiance"), "and a ground without light");
+}
+
 int main(void)
 {
     struct image photograph = { W, H, 3, PIXEL_U8, pixels };
@@ -64,5 +96,6 @@ int main(void)
     paint(0, 10, 128, 128, 128);
     memset(pixels, 255, 3);
     OK(exposure_fit(&e, &photograph, patch, radiance, true, &err), "one pixel of a hundred may be saturated");
+    check_samples();
     return tap_done();
 }

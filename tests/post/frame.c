@@ -350,6 +350,86 @@ static void check_transfers(void)
     image_release(&rgb);
 }
 
+/* Own labels, a view that nobody took, mist and lens, through the whole program. */
+static void check_flight(void)
+{
+    const char *f = "000001";
+    struct manifest m = manifest_of(f);
+    struct image got, before;
+    struct error err = ERROR_NONE;
+    static uint8_t colors[W * H * 3];
+    static float place[W * H], moved[W * H * 3];
+    for (int i = 0; i < W * H; i++) {
+        memcpy(colors + 3 * i, i % 5 ? (uint8_t[]){ 128, 64, 128 } : (uint8_t[]){ 1, 2, 3 }, 3);
+        place[i] = 20 + (float)i / 3;
+    }
+    struct image image = { W, H, 3, PIXEL_U8, colors };
+    save("colors.png", &image);
+    save_layer(f, "place_depth.exr", W, H, 1, PIXEL_F32, place);
+    m.palette = PALETTE_UAVID;
+    m.has_place = true;
+    snprintf(m.semantic, sizeof m.semantic, "colors.png");
+    save_manifest(f, &m);
+    if (!OK(post(f) == 0 && image_read(&got, in_out("semantic/%s.png", f), &err), "a frame with labels of its own: %s", said)) return;
+    const size_t at = 20 * W + 21;
+    OK(!memcmp(got.data, colors, 3 * at) && !memcmp((uint8_t *)got.data + 3 * at + 3, colors + 3 * at + 3, sizeof colors - 3 * at - 3),
+       "keeps them bit for bit");
+    OK(!memcmp((uint8_t *)got.data + 3 * at, (uint8_t[]){ 64, 0, 128 }, 3), "but for the entity's pixel, a moving car");
+    image_release(&got);
+    if (!OK(image_read(&got, in_out("semantic_id/%s.png", f), &err), "as ids")) return;
+    OK(*image_u8(&got, 21, 20) == 7 && *image_u8(&got, 22, 20) == 2 && *image_u8(&got, 0, 0) == 0, "by the palette");
+    image_release(&got);
+    if (!OK(image_read(&got, in_out("depth/%s.exr", f), &err), "depth")) return;
+    OK(*image_f32(&got, 21, 20) == 12.5f && !memcmp(got.data, place, 4 * at), "is the place's round the entity's");
+    image_release(&got);
+
+    /* Mist: the entity's 2 * 0.2 at 12.5 m, on a ray (21.5 - 32, 20.5 - 24) / 50 aside: 12.813 m;
+     * T = 0.05^(12.813 / 12.813) and A = 0.25016: 0.4 T + A (1 - T) = 0.25765, as sRGB 138.9 */
+    m.has_mist = true;
+    m.visibility_m = 12.813;
+    for (int c = 0; c < 3; c++) m.haze[c] = 0.25016;
+    save_manifest(f, &m);
+    if (!OK(post(f) == 0 && image_read(&got, in_out("rgb/%s.png", f), &err), "in mist: %s", said)) return;
+    NEAR(image_u8(&got, 21, 20)[1], 139, 0, "an entity at the visibility keeps a twentieth of its contrast");
+    image_release(&got);
+    m.has_mist = false;
+
+    for (int i = 0; i < W * H; i++) moved[3 * i] = 2;
+    m.has_motion = true;
+    m.defocus_px = 3;
+    m.focus_m = 100;
+    m.softness_px = 0.5;
+    save_manifest(f, &m);
+    image_read(&before, in_out("instance/%s.png", f), &err);
+    OK(post(f) == 1 && strstr(said, "motion.exr: does not exist"), "motion must be told");
+    save_layer(f, "motion.exr", W, H, 3, PIXEL_F32, moved);
+    if (!OK(post(f) == 0 && image_read(&got, in_out("rgb/%s.png", f), &err), "moving and out of focus: %s", said)) return;
+    int changed = 0, outside = 0;
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++) {
+            if (!memcmp(image_u8(&got, x, y), photograph + 3 * (y * W + x), 3)) continue;
+            changed++;
+            outside += x < window.x0 || x >= window.x1 || y < window.y0 || y >= window.y1;
+        }
+    OK(changed > 20 && outside == 0, "changes what is round the entity, and only there");
+    image_release(&got);
+    if (!OK(image_read(&got, in_out("instance/%s.png", f), &err), "labels")) return;
+    OK(!memcmp(got.data, before.data, image_size(&got)), "are not blurred");
+    image_release(&got);
+    image_release(&before);
+
+    m = manifest_of(f);
+    m.new_view = true;
+    m.empty = true;
+    m.has_shares = false;
+    m.photograph[0] = '\0';
+    save_manifest(f, &m);
+    save_layer(f, "background.png", W, H, 3, PIXEL_U8, colors);
+    if (!OK(post(f) == 0 && image_read(&got, in_out("rgb/%s.png", f), &err), "a view that nobody took: %s", said)) return;
+    OK(!memcmp(got.data, colors, sizeof colors), "is its background");
+    image_release(&got);
+}
+
 static int remove_entry(const char *path, const struct stat *st, int type, struct FTW *ftw)
 {
     (void)st, (void)type, (void)ftw;
@@ -367,6 +447,7 @@ int main(void)
         check_faults();
         check_unchanged();
         check_transfers();
+        check_flight();
     }
     nftw(out, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
     return tap_done();

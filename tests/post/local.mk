@@ -73,3 +73,13 @@ check_PROGRAMS += tests/post/softness.test
 tests_post_softness_test_SOURCES = %D%/softness.c %D%/layers.h tests/tap.h
 nodist_EXTRA_tests_post_softness_test_SOURCES = dummy.cxx
 tests_post_softness_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/before.test
+tests_post_before_test_SOURCES = %D%/before.c tests/tap.h
+nodist_EXTRA_tests_post_before_test_SOURCES = dummy.cxx
+tests_post_before_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/stats.test
+tests_post_stats_test_SOURCES = %D%/stats.c tests/tap.h
+nodist_EXTRA_tests_post_stats_test_SOURCES = dummy.cxx
+tests_post_stats_test_LDADD = $(POST_LIBS)
