@@ -7,6 +7,7 @@ import_libimport_a_SOURCES = \
   %D%/colmap_records.c %D%/colmap_records.h \
   %D%/colmap_text.c \
   %D%/control_points.c %D%/control_points.h \
+  %D%/focal.c %D%/focal.h \
   %D%/georeference.h \
   %D%/georeference_distance.c \
   %D%/georeference_ties.c \

@@ -1,4 +1,5 @@
 /* staffage-import: options in, a scene file out, and on the terminal how well it fits. */
+#include "import/focal.h"
 #include "import/path_from.h"
 #include "import/photographs.h"
 #include "import/placement.h"
@@ -130,6 +131,16 @@ static void report_placement(const struct placement *p)
         puts("no georeference: the world is the tool's own frame, whose unit is hardly a metre");
 }
 
+static void warn_of_focal(const struct reconstruction *reconstruction, const struct photo_facts *facts)
+{
+    struct focal_check c;
+    if (focal_differs(&c, reconstruction, facts))
+        fprintf(stderr,
+                "staffage-import: warning: the focal length is %.1f mm in the reconstruction, and EXIF says %.0f (35 mm film): "
+                "heights may be wrong by that factor, %.2f; see \"Is it right?\" in the documentation\n",
+                c.reconstruction_mm, c.exif_mm, c.reconstruction_mm / c.exif_mm);
+}
+
 static bool import(const struct options *o, struct error *err)
 {
     struct reconstruction reconstruction = { 0 };
@@ -148,6 +159,7 @@ static bool import(const struct options *o, struct error *err)
         const struct imported imported = { o->tool->name, &reconstruction, &photographs, &placement,
                                            o->utc_offset, mesh, roads };
         report_placement(&placement);
+        warn_of_focal(&reconstruction, photographs.facts);
         ok = scene_yaml_write(&text, &imported, err) && file_write(o->scene, text, strlen(text), err);
         if (ok && !scene_yaml_has_times(&imported))
             fprintf(stderr, "staffage-import: warning: the shots have no times: %s\n",

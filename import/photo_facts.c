@@ -174,6 +174,8 @@ static void read_lens(struct photo_facts *facts, const struct reader *r)
     }
     if (rationals(&value, r, EXIF_IFD_EXIF, EXIF_TAG_FNUMBER, 1)) facts->f_number = value;
     if (rationals(&value, r, EXIF_IFD_EXIF, EXIF_TAG_FOCAL_LENGTH, 1)) facts->focal_mm = value;
+    const ExifEntry *e = entry(r, EXIF_IFD_EXIF, EXIF_TAG_FOCAL_LENGTH_IN_35MM_FILM, EXIF_FORMAT_SHORT, 1);
+    if (e) facts->focal_35mm = exif_get_short(e->data, r->order);
 }
 
 /* ---- all of it ---- */

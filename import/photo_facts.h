@@ -12,7 +12,7 @@ struct photo_facts {
     char time[32];        /* "2016-06-23T16:31:59": local, DateTimeOriginal */
     char offset[8];       /* "-05:00" where EXIF 2.31 gives it, else "" */
     double exposure_s;
-    double f_number, focal_mm; /* 0 where EXIF does not say */
+    double f_number, focal_mm, focal_35mm; /* 0 where EXIF does not say; the last as 35 mm film would need it */
 };
 
 /* A JPEG's facts; of a picture in another format there are none. No EXIF at all is no error.

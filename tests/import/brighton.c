@@ -1,3 +1,4 @@
+#include "import/focal.h"
 #include "import/georeference.h"
 #include "import/gps_ties.h"
 #include "lib/file.h"
@@ -10,7 +11,8 @@ static char *file_of(const char *folder, const char *name)
 }
 
 /* The similarity from the photographs' GPS; every residual 3 m at most. */
-static bool georeference(struct similarity *s, struct tie_residual *residuals, double *rms_m, struct error *err)
+static bool georeference(struct similarity *s, struct tie_residual *residuals, double *rms_m, struct focal_check *focal,
+                         struct error *err)
 {
     char *folder = file_of("colmap", "");
     struct reconstruction flight;
@@ -27,7 +29,8 @@ static bool georeference(struct similarity *s, struct tie_residual *residuals, d
             free(photograph);
         }
         good = good && gps_ties(&ties, &n, origin, &flight, facts, err) && n == 18
-               && georeference_ties(s, residuals, rms_m, ties, n, 3, err);
+               && georeference_ties(s, residuals, rms_m, ties, n, 3, err)
+               && focal_differs(focal, &flight, facts);
         reconstruction_release(&flight);
     }
     free(ties);
@@ -45,7 +48,8 @@ int main(void)
     struct tie_residual residuals[18];
     struct error err = ERROR_NONE;
     double rms_m = NAN;
-    if (!OK(georeference(&s, residuals, &rms_m, &err), "brighton: 18 positions give the similarity")) {
+    struct focal_check focal = { 0 };
+    if (!OK(georeference(&s, residuals, &rms_m, &focal, &err), "brighton: 18 positions give the similarity")) {
         printf("# %s\n", err.text);
         return tap_done();
     }
@@ -63,5 +67,7 @@ int main(void)
     for (int i = 0; i < 9; i++) worst = fmax(worst, fabs(s.rotation.m[i / 3][i % 3] - rotation[i / 3][i % 3]));
     NEAR(worst, 0, 1e-7, "brighton: the rotation that numpy finds");
     NEAR(vec3_norm(vec3_sub(s.translation, vec3(42.22802948, 8.27600913, 0.70139913))), 0, 1e-5, "brighton: and the place");
+    NEAR(focal.reconstruction_mm, 1466.4181492 * 36 / 2000, 1e-6, "brighton: the lens that COLMAP found is told,");
+    NEAR(focal.exif_mm, 20, 0, "brighton: and that it is not the one of EXIF");
     return tap_done();
 }

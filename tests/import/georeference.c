@@ -1,4 +1,5 @@
 #include "import/control_points.h"
+#include "import/focal.h"
 #include "import/georeference.h"
 #include "import/gps_ties.h"
 #include "import/svd.h"
@@ -287,6 +288,24 @@ static void check_gps(void)
     free(got);
 }
 
+static void check_focal(void)
+{
+    struct recon_camera cameras[2] = { { .camera = { CAMERA_PINHOLE, 2000, 1500, { 1111, 1111, 1000, 750 } } },
+                                       { .camera = { CAMERA_SIMPLE_PINHOLE, 1500, 2000, { 1400, 750, 1000 } } } };
+    struct recon_shot shots[3] = { { .camera = 0 }, { .camera = 0 }, { .camera = 1 } };
+    struct reconstruction flight = { .cameras = cameras, .shots = shots, .camera_count = 2, .shot_count = 3 };
+    struct photo_facts facts[3] = { { .focal_35mm = 0 } };
+    struct focal_check check = { 0 };
+    OK(!focal_differs(&check, &flight, facts), "lens: where EXIF says nothing, nothing differs");
+    for (int i = 0; i < 3; i++) facts[i].focal_35mm = 20;
+    OK(!focal_differs(&check, &flight, facts), "lens: 1111 px of 2000 are 20 mm of 36; a single shot does not count");
+    shots[1].camera = 1;
+    OK(focal_differs(&check, &flight, facts) && fabs(check.reconstruction_mm - 25.2) < 1e-9 && check.exif_mm == 20,
+       "lens: 1400 px of 2000 upright are 25.2 mm, too long for 20");
+    cameras[1].camera.params[0] = 900;
+    OK(focal_differs(&check, &flight, facts), "lens: 900 px are too short");
+}
+
 /* ---- one distance ---- */
 
 /* Rows: right, down, forward; up is (0.6, 0, 0.8). */
@@ -417,6 +436,7 @@ int main(void)
     check_lines();
     check_contradiction();
     check_gps();
+    check_focal();
     check_distance();
     check_control_points();
     return tap_done();

@@ -164,10 +164,11 @@ static void check_lens(void)
     put_rationals(exif, EXIF_IFD_EXIF, EXIF_TAG_EXPOSURE_TIME, (const unsigned[1][2]){ { 1, 250 } }, 1);
     put_rationals(exif, EXIF_IFD_EXIF, EXIF_TAG_FNUMBER, (const unsigned[1][2]){ { 28, 10 } }, 1);
     put_rationals(exif, EXIF_IFD_EXIF, EXIF_TAG_FOCAL_LENGTH, (const unsigned[1][2]){ { 361, 100 } }, 1);
+    exif_set_short(put(exif, EXIF_IFD_EXIF, EXIF_TAG_FOCAL_LENGTH_IN_35MM_FILM, EXIF_FORMAT_SHORT, 1), EXIF_BYTE_ORDER_INTEL, 24);
     put_text(exif, EXIF_IFD_EXIF, EXIF_TAG_DATE_TIME_ORIGINAL, "2021:12:31 23:59:58");
     put_text(exif, EXIF_IFD_EXIF, EXIF_TAG_OFFSET_TIME_ORIGINAL, "-03:30");
-    OK(read_back(exif, 0, 0) && facts.has_exposure && facts.exposure_s == 0.004 && facts.f_number == 2.8 && facts.focal_mm == 3.61,
-       "exposure, aperture and focal length");
+    OK(read_back(exif, 0, 0) && facts.has_exposure && facts.exposure_s == 0.004 && facts.f_number == 2.8 && facts.focal_mm == 3.61
+           && facts.focal_35mm == 24, "exposure, aperture and focal lengths");
     OK(!strcmp(facts.time, "2021-12-31T23:59:58") && !strcmp(facts.offset, "-03:30"), "the time and its offset");
 }
 
@@ -221,7 +222,8 @@ static void check_brighton(void)
     NEAR(facts.lat_lon_h[2], 198.309, 1e-9, "brighton: altitude");
     OK(!strcmp(facts.time, "2016-06-23T16:31:59") && !facts.offset[0], "brighton: local time, no offset");
     NEAR(facts.exposure_s, 0.002702, 1e-9, "brighton: exposure");
-    OK(facts.f_number == 2.8 && fabs(facts.focal_mm - 3.61) < 1e-9, "brighton: aperture and focal length");
+    OK(facts.f_number == 2.8 && fabs(facts.focal_mm - 3.61) < 1e-9 && facts.focal_35mm == 20,
+       "brighton: aperture and focal lengths");
     free(photograph);
 }
 
