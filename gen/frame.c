@@ -111,7 +111,8 @@ static struct rect changed_window(struct frame *f)
 static void ground_radiance(double rgb[3], const struct frame *f)
 {
     const struct scene *s = f->scene;
-    for (int c = 0; c < 3; c++) rgb[c] = s->ground_albedo[c] * f->context->light->irradiance[c];
+    light_irradiance(rgb, f->context->light, s->ground.normal);
+    for (int c = 0; c < 3; c++) rgb[c] *= s->ground_albedo[c];
     if (s->ground_reflection <= 0 || s->exposure_given) return;
     /* A wet ground mirrors the sky as well: as seen in the middle of the exposure patch. */
     struct vec2 middle = { (s->exposure_patch_px[0].x + s->exposure_patch_px[1].x) / 2,

@@ -117,6 +117,33 @@ static void sky_irradiance(double rgb[3], const struct image *sky)
             for (int c = 0; c < 3; c++) rgb[c] += level_weight(row) * (double)image_f32(sky, column, row)[c];
 }
 
+/* Directions of a pixel, summed over its solid angle, / pi: exact, so that a surface above whose plane
+ * the pixel lies wholly gets exactly its light. */
+static struct vec3 pixel_share(int column, int row)
+{
+    double top = M_PI / 2 - (double)row / SKY_HEIGHT * M_PI, bottom = top - M_PI / SKY_HEIGHT;
+    double from = (double)column / SKY_WIDTH * 2 * M_PI, to = from + 2 * M_PI / SKY_WIDTH;
+    double level = ((top - bottom) / 2 + (sin(2 * top) - sin(2 * bottom)) / 4) / M_PI;
+    return vec3(level * (sin(to) - sin(from)), level * (cos(from) - cos(to)), level_weight(row));
+}
+
+void light_sky_irradiance(double rgb[3], const struct light *light, struct vec3 normal)
+{
+    rgb[0] = rgb[1] = rgb[2] = 0;
+    for (int row = 0; row < SKY_HEIGHT; row++)
+        for (int column = 0; column < SKY_WIDTH; column++) {
+            double share = fmax(0, vec3_dot(pixel_share(column, row), normal));
+            for (int c = 0; c < 3; c++) rgb[c] += share * (double)image_f32(&light->sky, column, row)[c];
+        }
+}
+
+void light_irradiance(double rgb[3], const struct light *light, struct vec3 normal)
+{
+    light_sky_irradiance(rgb, light, normal);
+    double cosine = light->has_sun ? fmax(0, vec3_dot(light->sun_direction, normal)) : 0;
+    for (int c = 0; c < 3; c++) rgb[c] += cosine * light->sun_color[c];
+}
+
 static bool sun_of_scene(struct vec3 *direction, const struct scene *scene, struct error *err)
 {
     double azimuth = scene->sun_azimuth_rad, elevation = scene->sun_elevation_rad;

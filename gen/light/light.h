@@ -42,6 +42,12 @@ void light_release(struct light *light);
 /* The sky's radiance in a direction. */
 void light_sky_radiance(double color[3], const struct light *light, struct vec3 direction);
 
+/* What a surface of any unit normal receives in the open, sun and sky, / pi; the map's lower half, lit level
+ * ground, counts where the surface faces it. Of the normal (0, 0, 1) it is light->irradiance. */
+void light_irradiance(double rgb[3], const struct light *light, struct vec3 normal);
+/* The same without the sun. */
+void light_sky_irradiance(double rgb[3], const struct light *light, struct vec3 normal);
+
 /* n lights that share the level surface's irradiance equally: importance-sampled by radiance and
  * cosine, stratified; their sum on a level surface is the sky's irradiance exactly.
  * Out: lights (n) */

@@ -318,8 +318,7 @@ static bool write_pass(const char *frame_folder, const char *name, const struct 
         sdl_declare_vector(&sdl, "Ground_Normal", scene->ground.normal);
         sdl_declare_number(&sdl, "Ground_Offset", scene->ground.offset_m);
         double sky[3];
-        for (int c = 0; c < 3; c++)
-            sky[c] = p->light->irradiance[c] - p->light->sun_color[c] * fmax(0, p->light->sun_direction.z);
+        light_sky_irradiance(sky, p->light, scene->ground.normal);
         sdl_declare_color(&sdl, "Ground_Sky", sky);
     }
     char *include = string_format("pass_%s.inc", name), *path = string_format("%s/%s.pov", frame_folder, name);

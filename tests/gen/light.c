@@ -14,6 +14,64 @@ static double luminance(const double c[3])
     return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
 }
 
+/* The same integral over rings about the normal, through the function that looks directions up. */
+static double by_rings(const struct light *light, struct vec3 normal)
+{
+    enum { RINGS = 300, STEPS = 1200 };
+    struct vec3 across = vec3_unit(vec3_cross(normal, vec3(0.3, -0.8, 0.1))), other = vec3_cross(normal, across);
+    double sum = 0;
+    for (int i = 0; i < RINGS; i++) {
+        double sine = sqrt((i + 0.5) / RINGS); /* rings of equal cosine-weighted solid angle */
+        for (int k = 0; k < STEPS; k++) {
+            double turn = (k + 0.5) / STEPS * 2 * M_PI, rgb[3];
+            struct vec3 d = vec3_add(vec3_scale(across, sine * cos(turn)), vec3_scale(other, sine * sin(turn)));
+            light_sky_radiance(rgb, light, vec3_add(d, vec3_scale(normal, sqrt(1 - sine * sine))));
+            sum += luminance(rgb) / RINGS / STEPS;
+        }
+    }
+    return sum;
+}
+
+static void check_irradiance(void)
+{
+    struct error err = ERROR_NONE;
+    struct light light;
+    double rgb[3];
+    struct scene scene = scene_with(SKY_OVERCAST, 0, 3);
+    if (!OK(light_create(&light, &scene, &err), "a light to lie in")) return;
+    light_irradiance(rgb, &light, vec3(0, 0, 1));
+    NEAR(rgb[1], light.irradiance[1], 1e-9, "a level surface gets the level irradiance");
+    light_irradiance(rgb, &light, vec3(0, 0, -1));
+    NEAR(rgb[1], 0.2, 1e-6, "what faces down gets the ground's");
+    /* Moon and Spencer 1942: the overcast sky gives a wall 39.6 % of what it gives the ground; half of what
+     * the wall sees is ground. */
+    light_irradiance(rgb, &light, vec3(0.6, -0.8, 0));
+    NEAR(rgb[1], 0.396 + 0.2 / 2, 1e-3, "an overcast wall gets 39.6 % and the ground's half");
+    light_release(&light);
+
+    scene = scene_with(SKY_CLEAR, 35, 3);
+    if (!OK(light_create(&light, &scene, &err), "a clear one")) return;
+    for (int c = 0; c < 3; c++) {
+        light_irradiance(rgb, &light, vec3(0, 0, 1));
+        NEAR(rgb[c], light.irradiance[c], 1e-6, "channel %d: sun and sky on a level surface", c);
+    }
+    light_irradiance(rgb, &light, light.sun_direction);
+    double sky[3];
+    light_sky_irradiance(sky, &light, light.sun_direction);
+    NEAR(rgb[0] - sky[0], light.sun_color[0], 1e-12, "what faces the sun gets all of it");
+    light_irradiance(rgb, &light, vec3_scale(light.sun_direction, -1));
+    light_sky_irradiance(sky, &light, vec3_scale(light.sun_direction, -1));
+    NEAR(rgb[0], sky[0], 1e-12, "what turns its back gets none");
+    for (int i = 0; i < 4; i++) {
+        double tilt = (i + 0.5) * 25 * M_PI / 180, turn = 1 + 2.2 * i;
+        struct vec3 normal = { sin(tilt) * cos(turn), sin(tilt) * sin(turn), cos(tilt) };
+        light_sky_irradiance(sky, &light, normal);
+        double want = by_rings(&light, normal);
+        NEAR(luminance(sky), want, 3e-3 * want, "the sky on a surface %.0f deg steep, summed in another way", tilt * 180 / M_PI);
+    }
+    light_release(&light);
+}
+
 int main(void)
 {
     struct error err = ERROR_NONE;
@@ -72,5 +130,6 @@ int main(void)
     err = ERROR_NONE;
     OK(!light_create(&light, &scene, &err) && err.line == 7 && strstr(err.text, "3.0 deg below the horizon"),
        "a sun below the horizon is told with its place in the scene");
+    check_irradiance();
     return tap_done();
 }
