@@ -125,7 +125,7 @@ static bool shading(const struct mover *m, size_t *entity, struct vec3 p_m, int 
     for (size_t k = 0; k < m->in->receiver_count; k++) {
         struct rect r = m->receiver_px[k];
         struct vec3 at = m->in->entities[m->receiver_entity[k]].world_from_entity.translation;
-        double away = hypot(at.x - p_m.x, at.y - p_m.y);
+        double away = (at.x - p_m.x) * (at.x - p_m.x) + (at.y - p_m.y) * (at.y - p_m.y);
         if (x < r.x0 || x >= r.x1 || y < r.y0 || y >= r.y1 || away >= least || !prism_contains(&m->in->receivers[k], p_m))
             continue;
         least = away;
@@ -134,8 +134,8 @@ static bool shading(const struct mover *m, size_t *entity, struct vec3 p_m, int 
     return isfinite(least);
 }
 
-/* The rest of a row: entities' edges, and shades. */
-static void move_rest(struct image *motion, struct mover *m, int y)
+/* The shade in a row. */
+static void move_shade(struct image *motion, struct mover *m, int y)
 {
     struct rect within = { motion->width_px, 0, 0, 0 }; /* columns that a receiver of this row covers */
     for (size_t k = 0; k < m->in->receiver_count; k++) {
@@ -144,20 +144,29 @@ static void move_rest(struct image *motion, struct mover *m, int y)
         within.x0 = r.x0 < within.x0 ? r.x0 : within.x0;
         within.x1 = r.x1 > within.x1 ? r.x1 : within.x1;
     }
-    for (int x = 0; x < motion->width_px; x++) {
+    for (int x = within.x0; x < within.x1; x++) {
         struct vec3 direction, p;
         size_t entity = 0;
-        int u, v;
-        if (*image_u16(&m->labels->instance, x, y) != 0) continue;
-        if (edge(m, &u, &v, x, y)) {
-            for (int c = 0; c < 2; c++) image_f32(motion, x, y)[c] = image_f32(motion, u, v)[c];
-            continue;
-        }
-        if (x < within.x0 || x >= within.x1 || (m->labels->receiver.data && *image_u8(&m->labels->receiver, x, y) == 0))
+        if (*image_u16(&m->labels->instance, x, y) != 0 ||
+            (m->labels->receiver.data && *image_u8(&m->labels->receiver, x, y) == 0))
             continue;
         if (rays_get(&m->rays, &direction, x) && floor_point(m, &p, direction, x, y) &&
             shading(m, &entity, pose_apply(m->in->world_from_camera, p), x, y))
             put(image_f32(motion, x, y), m->in->camera, &m->shade[entity], p);
+    }
+}
+
+/* The edges in a row of what is seen of the entities. */
+static void move_edges(struct image *motion, const struct mover *m, int y)
+{
+    for (size_t i = 0; i < m->labels->entity_count; i++) {
+        struct rect seen = m->labels->entities[i].box_visible_px;
+        if (rect_is_empty(seen) || y < seen.y0 - EDGE_PX || y >= seen.y1 + EDGE_PX) continue;
+        for (int x = seen.x0 > EDGE_PX ? seen.x0 - EDGE_PX : 0; x < seen.x1 + EDGE_PX && x < motion->width_px; x++) {
+            int u, v;
+            if (*image_u16(&m->labels->instance, x, y) != 0 || !edge(m, &u, &v, x, y)) continue;
+            for (int c = 0; c < 2; c++) image_f32(motion, x, y)[c] = image_f32(motion, u, v)[c];
+        }
     }
 }
 
@@ -174,7 +183,8 @@ bool motion_trace(struct image *motion, const struct trace_input *in, const size
     }
     for (int y = 0; ok && y < height; y++) {
         rays_begin_row(&m.rays, y);
-        move_rest(motion, &m, y);
+        move_shade(motion, &m, y);
+        move_edges(motion, &m, y);
     }
     mover_release(&m);
     return ok;

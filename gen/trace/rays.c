@@ -8,9 +8,10 @@
 
 enum { NODE_UNKNOWN, NODE_KNOWN, NODE_NONE };
 
-bool rays_init(struct rays *rays, const struct camera *camera, struct error *err)
+static bool init(struct rays *rays, const struct camera *camera, double within_px, struct error *err)
 {
-    *rays = (struct rays){ .camera = camera, .in = camera_intrinsics(camera), .pinhole = camera_is_pinhole(camera) };
+    *rays = (struct rays){ .camera = camera, .in = camera_intrinsics(camera), .pinhole = camera_is_pinhole(camera),
+                           .within_px = within_px };
     if (rays->pinhole) return true;
     rays->cells = (3 * camera->width_px + CELL_PX - 1) / CELL_PX;
     size_t pixels = (size_t)rays->cells * CELL_PX, nodes = (size_t)rays->cells + 3;
@@ -22,6 +23,16 @@ bool rays_init(struct rays *rays, const struct camera *camera, struct error *err
     if (!rays->ray || !rays->exists || !rays->node || !rays->node_state || !rays->cell_ready)
         return error_set(err, ERR_MEMORY, "no memory for a row of rays");
     return true;
+}
+
+bool rays_init(struct rays *rays, const struct camera *camera, struct error *err)
+{
+    return init(rays, camera, 0.5, err);
+}
+
+bool rays_init_corners(struct rays *rays, const struct camera *camera, struct error *err)
+{
+    return init(rays, camera, 0, err);
 }
 
 void rays_release(struct rays *rays)
@@ -47,7 +58,7 @@ static bool exact(const struct rays *rays, struct vec3 *direction, int index)
 {
     struct error none = ERROR_NONE;
     return camera_unproject(rays->camera, direction,
-                            (struct vec2){ index - rays->camera->width_px + 0.5, rays->y + 0.5 }, &none);
+                            (struct vec2){ index - rays->camera->width_px + rays->within_px, rays->y + rays->within_px }, &none);
 }
 
 static bool node(struct rays *rays, int k)
@@ -88,7 +99,8 @@ bool rays_get(struct rays *rays, struct vec3 *direction, int x)
 {
     if (rays->pinhole) {
         *direction = vec3_unit(
-            vec3((x + 0.5 - rays->in.cx_px) / rays->in.fx_px, (rays->y + 0.5 - rays->in.cy_px) / rays->in.fy_px, 1));
+            vec3((x + rays->within_px - rays->in.cx_px) / rays->in.fx_px,
+                 (rays->y + rays->within_px - rays->in.cy_px) / rays->in.fy_px, 1));
         return true;
     }
     int index = x + rays->camera->width_px;

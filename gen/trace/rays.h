@@ -21,6 +21,7 @@ struct rays {
     struct camera_intrinsics in;
     bool pinhole;
     int y;
+    double within_px;   /* where in a pixel: 0.5 its centre, 0 its corner at the top left */
     /* Beside the photograph as well: index 0 is x = -width_px. */
     struct vec3 *ray;   /* (3 width) unit, camera coordinates */
     bool *exists;       /* (3 width) the lens maps a direction there */
@@ -32,6 +33,8 @@ struct rays {
 
 /* Err: ERR_MEMORY. rays_release may be called after a failure, too. */
 bool rays_init(struct rays *rays, const struct camera *camera, struct error *err);
+/* The same through the pixels' top left corners. */
+bool rays_init_corners(struct rays *rays, const struct camera *camera, struct error *err);
 void rays_release(struct rays *rays);
 void rays_begin_row(struct rays *rays, int y);
 /* Out: *direction unit, camera coordinates. False where the lens maps no direction.

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define DEPTH_EDGE_M 1.0  /* there may be a gap between faces that lie so far behind each other */
+#define SMOOTH_M 0.25     /* there is none between such that lie so close */
 #define ALL_SAMPLES UINT64_MAX
 
 /* What the ray through a pixel's centre says of it. */
@@ -22,6 +23,7 @@ struct shares {
     const struct share_input *in;
     int width_px, height_px;
     uint8_t *state;        /* (h,w) */
+    struct rays corners[2]; /* through the corners of a row's pixels: above and below */
     uint64_t *of_entities, *of_receiver; /* (width) samples hidden */
     struct rect *receiver_px; /* (receiver_count) where they can be seen */
 };
@@ -114,33 +116,45 @@ static void judge_row(struct shares *s, int y)
     }
 }
 
-/* Which of a pixel's shares one ray cannot tell: NEAR for the entity's, RECEIVES for the receiver's. */
-static int mixed(const struct shares *s, int x, int y)
+/* Between the nearest and the farthest point of the place at a pixel and round it. */
+static double depth_step(const struct shares *s, int x, int y)
 {
     const struct image *range = &s->in->backdrop->range;
-    uint8_t own = s->state[(size_t)y * (size_t)s->width_px + (size_t)x];
-    bool hidden = false, receiver = false;
     float least = INFINITY, most = 0;
     for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < s->height_px; v++)
         for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < s->width_px; u++) {
-            uint8_t other = s->state[(size_t)v * (size_t)s->width_px + (size_t)u];
-            hidden = hidden || (other & NEAR && (other ^ own) & HIDDEN);
-            receiver = receiver || (other ^ own) & RECEIVES;
-            least = fminf(least, *image_f32(range, u, v));
-            most = fmaxf(most, *image_f32(range, u, v));
+            float here = *image_f32(range, u, v);
+            least = here < least ? here : least;
+            most = here > most ? here : most;
         }
-    hidden = hidden || (own & HIDDEN && most - least > (float)DEPTH_EDGE_M);
-    return (own & REACHED && hidden ? NEAR : 0) | (receiver ? RECEIVES : 0);
+    return (double)most - (double)least;
+}
+
+/* Which of a pixel's shares one ray cannot tell: NEAR for the entity's, RECEIVES for the receiver's. */
+static int mixed(const struct shares *s, int x, int y)
+{
+    const uint8_t *centre = s->state + (size_t)y * (size_t)s->width_px + (size_t)x;
+    int any = 0, all = RECEIVES, hidden = 0, seen = 0;
+    for (int v = y > 0 ? -1 : 0; v <= 1 && y + v < s->height_px; v++)
+        for (int u = x > 0 ? -1 : 0; u <= 1 && x + u < s->width_px; u++) {
+            int other = centre[(ptrdiff_t)v * s->width_px + u];
+            any |= other;
+            all &= other;
+            if (!(other & NEAR)) continue;
+            hidden |= other & HIDDEN;
+            seen |= ~other & HIDDEN;
+        }
+    int unclear = any & ~all & RECEIVES;
+    if (*centre & REACHED && hidden && (seen || depth_step(s, x, y) > DEPTH_EDGE_M)) unclear |= NEAR;
+    return unclear;
 }
 
 /* 64 rays through a pixel: bit 8 j + i as in polygon.h. False where the lens does not cover all of it. */
-static bool sample_rays(const struct shares *s, struct vec3 direction[64], int x, int y)
+static bool sample_rays(struct shares *s, struct vec3 direction[64], int x)
 {
     struct vec3 corner[4];
     for (int k = 0; k < 4; k++) {
-        struct error ignored = ERROR_NONE;
-        struct vec2 q = { x + (k & 1), y + (k >> 1) };
-        if (!camera_unproject(s->in->rays->camera, &corner[k], q, &ignored)) return false;
+        if (!rays_get(&s->corners[k >> 1], &corner[k], x + (k & 1))) return false;
         corner[k] = backdrop_direction(s->in->backdrop, corner[k]);
     }
     for (int i = 0; i < 64; i++) {
@@ -152,18 +166,39 @@ static bool sample_rays(const struct shares *s, struct vec3 direction[64], int x
     return true;
 }
 
+/* Where the rays meet the place; at the end of a receiver that crosses a smooth part of it, where they meet the plane of
+ * the pixel's face, which spares most of the rays. */
+static void sample_hits(const struct shares *s, struct static_hit hit[64], const struct vec3 direction[64], int unclear,
+                        int x, int y)
+{
+    const struct backdrop *backdrop = s->in->backdrop;
+    uint32_t triangle = backdrop->triangle[(size_t)y * (size_t)s->width_px + (size_t)x];
+    if (unclear & NEAR || depth_step(s, x, y) > SMOOTH_M) {
+        static_mesh_hits(backdrop->place, hit, backdrop->world_from_camera.translation, direction, 64);
+        return;
+    }
+    /* The mean of the four rays about the centre is the centre's. */
+    struct vec3 normal = static_mesh_normal(backdrop->place, triangle), centre = { 0, 0, 0 };
+    static const int about[4] = { 27, 28, 35, 36 };
+    for (int k = 0; k < 4; k++) centre = vec3_add(centre, direction[about[k]]);
+    double level = (double)*image_f32(&backdrop->range, x, y) * vec3_dot(normal, vec3_unit(centre));
+    for (int i = 0; i < 64; i++) hit[i] = (struct static_hit){ level / vec3_dot(normal, direction[i]), triangle, 0, 0 };
+}
+
 /* Add what the place hides of a row: one ray's word, or 64 rays' where that is not enough. */
 static void place_row(struct shares *s, int y)
 {
     const struct backdrop *backdrop = s->in->backdrop;
+    struct vec3 direction[64], eye = backdrop->world_from_camera.translation;
+    struct static_hit hit[64];
+    rays_begin_row(&s->corners[0], y);
+    rays_begin_row(&s->corners[1], y + 1);
     for (int x = 0; x < s->width_px; x++) {
         uint8_t own = s->state[(size_t)y * (size_t)s->width_px + (size_t)x];
         int unclear = mixed(s, x, y);
-        struct vec3 direction[64], eye = backdrop->world_from_camera.translation;
-        struct static_hit hit[64];
-        struct sighted point = { .range_m = 0 };
-        if (unclear && sample_rays(s, direction, x, y))
-            static_mesh_hits(backdrop->place, hit, eye, direction, 64);
+        struct sighted point;
+        if (unclear && sample_rays(s, direction, x))
+            sample_hits(s, hit, direction, unclear, x, y);
         else
             unclear = 0;
         if (unclear & NEAR && sighted_at(s, &point, x, y, EDGE_PX)) {
@@ -213,6 +248,8 @@ static bool shares_init(struct shares *s, const struct share_input *in, struct e
     s->receiver_px = calloc(in->receiver_count + 1, sizeof *s->receiver_px);
     if (!s->of_entities || (in->backdrop && !s->state) || !s->receiver_px)
         return error_set(err, ERR_MEMORY, "no memory for the shares of a picture");
+    for (int k = 0; k < 2; k++)
+        if (!rays_init_corners(&s->corners[k], in->rays->camera, err)) return false;
     s->of_receiver = s->of_entities + width;
     struct rect frame = { 0, 0, s->width_px, s->height_px };
     for (size_t i = 0; in->backdrop && i < in->receiver_count; i++) {
@@ -240,6 +277,7 @@ bool shares_trace(struct image *visible, struct image *receiver, const struct sh
             *image_u8(receiver, x, y) = share(s.of_receiver[x]);
         }
     }
+    for (int k = 0; k < 2; k++) rays_release(&s.corners[k]);
     free(s.of_entities);
     free(s.state);
     free(s.receiver_px);

@@ -29,7 +29,7 @@ struct box3 prism_bounds(const struct prism *prism)
 bool prism_contains(const struct prism *prism, struct vec3 p)
 {
     double h = p.z - prism->base_m;
-    if (h < prism->below_m || h > prism->above_m) return false;
+    if (!(h >= prism->below_m && h <= prism->above_m)) return false;
     struct vec2 s = slope(prism);
     double x = p.x - s.x * h, y = p.y - s.y * h;
     for (size_t i = 0; i < prism->corners; i++) {
