@@ -54,11 +54,14 @@ gen_libgen_a_SOURCES = \
   %D%/trace/backdrop.c %D%/trace/backdrop.h \
   %D%/trace/cast.c %D%/trace/cast.h \
   %D%/trace/footprint.c %D%/trace/footprint.h \
+  %D%/trace/fusion.c %D%/trace/fusion.h \
   %D%/trace/label.c %D%/trace/label.h \
   %D%/trace/motion.c %D%/trace/motion.h \
+  %D%/trace/place.c %D%/trace/place.h \
   %D%/trace/polygon.c %D%/trace/polygon.h \
   %D%/trace/rays.c %D%/trace/rays.h \
   %D%/trace/screen.c %D%/trace/screen.h \
+  %D%/trace/semantic.c %D%/trace/semantic.h \
   %D%/trace/shape.c %D%/trace/shape.h \
   %D%/trace/share.c %D%/trace/share.h \
   %D%/trace/trace.c %D%/trace/trace.h \
@@ -86,3 +89,8 @@ staffage_gen_CPPFLAGS = $(AM_CPPFLAGS) -DPKGDATADIR='"$(pkgdatadir)"'
 staffage_gen_SOURCES = %D%/main.c
 nodist_EXTRA_staffage_gen_SOURCES = dummy.cxx
 staffage_gen_LDADD = $(GEN_LIBS)
+
+bin_PROGRAMS += staffage-fuse
+staffage_fuse_SOURCES = %D%/fuse_main.c
+nodist_EXTRA_staffage_fuse_SOURCES = dummy.cxx
+staffage_fuse_LDADD = $(GEN_LIBS)

@@ -152,6 +152,11 @@ float (*static_mesh_vertices(struct static_mesh *mesh))[3]
     return mesh->position_m;
 }
 
+struct vec3 static_mesh_vertex(const struct static_mesh *mesh, uint32_t vertex)
+{
+    return static_vertex(mesh, vertex);
+}
+
 size_t static_mesh_triangle_count(const struct static_mesh *mesh)
 {
     return mesh->triangles;
@@ -202,6 +207,11 @@ struct vec3 static_mesh_normal(const struct static_mesh *mesh, uint32_t triangle
     struct vec3 n = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
     double norm = vec3_norm(n);
     return norm > 0 ? vec3_scale(n, 1 / norm) : vec3(0, 0, 1);
+}
+
+bool static_mesh_has_labels(const struct static_mesh *mesh)
+{
+    return mesh->label != NULL;
 }
 
 int static_mesh_label(const struct static_mesh *mesh, uint32_t triangle)

@@ -27,6 +27,7 @@ void static_mesh_destroy(struct static_mesh *mesh);
 /* The vertices, world metres: to read, and before static_mesh_index also to move (a smooth road). */
 size_t static_mesh_vertex_count(const struct static_mesh *mesh);
 float (*static_mesh_vertices(struct static_mesh *mesh))[3];
+struct vec3 static_mesh_vertex(const struct static_mesh *mesh, uint32_t vertex);
 size_t static_mesh_triangle_count(const struct static_mesh *mesh);
 const uint32_t (*static_mesh_triangles(const struct static_mesh *mesh))[3];
 void static_mesh_bounds(const struct static_mesh *mesh, struct vec3 *min_m, struct vec3 *max_m);
@@ -71,6 +72,7 @@ bool static_mesh_has_colors(const struct static_mesh *mesh);
 void static_mesh_color(const struct static_mesh *mesh, float rgb[3], const struct static_hit *hit, double footprint_m);
 /* The face's label (a semantic mesh), or -1: STATIC_LABEL_UNKNOWN in the file, or no labels at all. */
 #define STATIC_LABEL_UNKNOWN 255
+bool static_mesh_has_labels(const struct static_mesh *mesh);
 int static_mesh_label(const struct static_mesh *mesh, uint32_t triangle);
 
 /* --- cuts --- */
