@@ -91,10 +91,35 @@ check_PROGRAMS += tests/gen/passes.test
 tests_gen_passes_test_SOURCES = %D%/gen/passes.c %D%/tap.h
 nodist_EXTRA_tests_gen_passes_test_SOURCES = dummy.cxx
 tests_gen_passes_test_LDADD = $(GEN_LIBS)
+check_PROGRAMS += tests/gen/gait.test
+tests_gen_gait_test_SOURCES = %D%/gen/gait.c %D%/tap.h
+nodist_EXTRA_tests_gen_gait_test_SOURCES = dummy.cxx
+tests_gen_gait_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/model.test
-tests_gen_model_test_SOURCES = %D%/gen/model.c %D%/tap.h
+tests_gen_model_test_SOURCES = %D%/gen/model.c %D%/gen/model_files.h %D%/tap.h
 nodist_EXTRA_tests_gen_model_test_SOURCES = dummy.cxx
 tests_gen_model_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/model_gltf.test
+tests_gen_model_gltf_test_SOURCES = %D%/gen/model_gltf.c %D%/gen/model_files.h %D%/tap.h
+nodist_EXTRA_tests_gen_model_gltf_test_SOURCES = dummy.cxx
+tests_gen_model_gltf_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/model_ply.test
+tests_gen_model_ply_test_SOURCES = %D%/gen/model_ply.c %D%/gen/model_files.h %D%/tap.h
+nodist_EXTRA_tests_gen_model_ply_test_SOURCES = dummy.cxx
+tests_gen_model_ply_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/model_texture.test
+tests_gen_model_texture_test_SOURCES = %D%/gen/model_texture.c %D%/gen/model_files.h %D%/tap.h
+nodist_EXTRA_tests_gen_model_texture_test_SOURCES = dummy.cxx
+tests_gen_model_texture_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/rig.test
+tests_gen_rig_test_SOURCES = %D%/gen/rig.c %D%/gen/model_files.h %D%/gen/rig_table.h %D%/tap.h
+nodist_EXTRA_tests_gen_rig_test_SOURCES = dummy.cxx
+tests_gen_rig_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/material.test
 tests_gen_material_test_SOURCES = %D%/gen/material.c %D%/tap.h

@@ -76,9 +76,9 @@ static bool check_keys(struct gltf_loader *l, const struct rig_channel *c, size_
     if (values != want)
         return GLTF_FAIL(l, "%s: %zu values for %zu key times: %zu would be right%s", what, values, c->keys, want, cubic ? " (CUBICSPLINE)" : "");
     for (size_t i = 0; i < c->keys; i++) {
-        if (!(c->time_s[i] >= 0 && c->time_s[i] < 1e6)) return GLTF_FAIL(l, "%s: key time %zu is %g: seconds from 0 on would be right", what, i, c->time_s[i]);
+        if (!(c->time_s[i] >= 0 && c->time_s[i] < 1e6)) return GLTF_FAIL(l, "key times: key time %zu is %g: seconds from 0 on would be right", i, c->time_s[i]);
         if (i && c->time_s[i] <= c->time_s[i - 1])
-            return GLTF_FAIL(l, "%s: key time %zu is %g, after %g: ascending times would be right", what, i, c->time_s[i], c->time_s[i - 1]);
+            return GLTF_FAIL(l, "key times: key time %zu is %g, after %g: ascending times would be right", i, c->time_s[i], c->time_s[i - 1]);
         if (c->path == GLTF_ROTATION && !(square_norm(c->value + 4 * (cubic ? 3 * i + 1 : i)) > 1e-12))
             return GLTF_FAIL(l, "%s: key %zu is a rotation of norm zero", what, i);
     }

@@ -176,27 +176,37 @@ bool rig_wind(struct mesh *meshes, const struct rig *rig, struct error *err)
     return err->code == ERR_OK;
 }
 
-/* A loop ends in the pose that it began with, so what all vertices went, in the mean, is what the body went. */
-bool rig_measure_drift(struct rig *rig, struct error *err)
+static struct mesh *make_meshes(const struct rig *rig, struct error *err)
 {
     struct mesh *meshes = calloc(rig->mesh_count + 1, sizeof *meshes);
-    double sum[2] = { 0, 0 };
-    size_t count = 0;
-    if (!meshes) return no_memory(err);
-    for (size_t i = 0; i < rig->mesh_count && err->code == ERR_OK; i++) {
-        struct rig_mesh *rest = &rig->meshes[i];
-        mesh_init(&meshes[i], rest->vertices, 0, false, false, err);
-        count += rest->vertices;
+    if (!meshes) no_memory(err);
+    for (size_t i = 0; meshes && i < rig->mesh_count && err->code == ERR_OK; i++)
+        mesh_init(&meshes[i], rig->meshes[i].vertices, 0, false, false, err);
+    return meshes;
+}
+
+/* A loop that walks away ends in the pose that it began with, but elsewhere: all vertices went about as
+ * far. Where they only differ, as in a clip that does not close, nobody has gone anywhere. */
+bool rig_measure_drift(struct rig *rig, struct error *err)
+{
+    struct mesh *begin = make_meshes(rig, err), *end = make_meshes(rig, err);
+    double sum = 0, squares = 0, count = 0;
+    bool posed = err->code == ERR_OK && pose_at(begin, rig, 0, err) && pose_at(end, rig, rig->duration_s, err);
+    for (size_t i = 0; i < rig->mesh_count; i++) {
+        for (size_t v = 0; posed && v < begin[i].vertices; v++) {
+            double gone = (double)end[i].position_m[v][0] - (double)begin[i].position_m[v][0];
+            sum += gone;
+            squares += gone * gone;
+            count++;
+        }
+        if (begin) mesh_release(&begin[i]);
+        if (end) mesh_release(&end[i]);
     }
-    for (int end = 0; end < 2 && err->code == ERR_OK; end++) {
-        if (!pose_at(meshes, rig, end ? rig->duration_s : 0, err)) break;
-        for (size_t i = 0; i < rig->mesh_count; i++)
-            for (size_t v = 0; v < meshes[i].vertices; v++) sum[end] += (double)meshes[i].position_m[v][0];
-    }
-    for (size_t i = 0; i < rig->mesh_count; i++) mesh_release(&meshes[i]);
-    free(meshes);
-    if (err->code != ERR_OK) return false;
-    rig->drift_m = count ? (sum[1] - sum[0]) / (double)count : 0;
+    free(begin);
+    free(end);
+    if (!posed) return false;
+    double mean = count > 0 ? sum / count : 0, spread = sqrt(fmax(count > 0 ? squares / count - mean * mean : 0, 0));
+    rig->drift_m = fabs(mean) > 2 * spread ? mean : 0;
     return true;
 }
 

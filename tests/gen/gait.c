@@ -1,0 +1,154 @@
+/* Walkers by distance: what touches the ground stays where it is. */
+#include "gen/motion/gait.h"
+
+#include "gen/model/rig.h"
+#include "tests/gen/model_files.h"
+
+#define COUNT(a) (sizeof(a) / sizeof *(a))
+
+static const char *const walkers[] = { "scenes/models/walker-man.glb", "scenes/models/walker-woman.glb" };
+
+static struct model *load_walker(const char *name)
+{
+    char path[600];
+    const char *top = getenv("top_builddir");
+    snprintf(path, sizeof path, "%s/%s", top ? top : ".", name);
+    return load(path, &(struct model_options){ 0 });
+}
+
+/* Each point of the body that touches the ground, as long as it does: where it came down, in the world. */
+struct contact { bool down; double at_m[2]; };
+
+/* Walk for two loops at a speed, a picture 1/50 s, and see how far any point goes over the ground while it is
+ * within 5 mm of it. Nothing of this is told by the gait: only heights and places of posed vertices. */
+static void walk(const struct model *model, const struct gait *gait, double speed_m_s, const char *name)
+{
+    struct error err = ERROR_NONE;
+    size_t total = 0, offset = 0;
+    for (size_t i = 0; i < model->mesh_count; i++) total += model->meshes[i].vertices;
+    struct contact *contact = calloc(total, sizeof *contact);
+    double worst = 0, down = 0;
+    int frames = (int)(2 * gait->stride_m / speed_m_s * 50);
+    for (int f = 0; f < frames && contact; f++, offset = 0) {
+        double gone_m = speed_m_s * f / 50;
+        struct model posed;
+        bool stands = false;
+        if (!model_pose(&posed, model, gait_time(gait, gone_m, 0.3), &err)) break;
+        for (size_t i = 0; i < posed.mesh_count; offset += posed.meshes[i++].vertices)
+            for (size_t v = 0; v < posed.meshes[i].vertices; v++) {
+                const float *p = posed.meshes[i].position_m[v];
+                struct contact *c = &contact[offset + v];
+                double at[2] = { (double)p[0] + gone_m, (double)p[1] };
+                bool touches = p[2] < 0.005f;
+                if (touches && !c->down) memcpy(c->at_m, at, sizeof at);
+                if (touches) worst = fmax(worst, hypot(at[0] - c->at_m[0], at[1] - c->at_m[1]));
+                c->down = touches;
+                stands = stands || touches;
+            }
+        down += stands;
+        model_posed_release(&posed);
+    }
+    free(contact);
+    OK(err.code == ERR_OK && frames > 40, "%s walks at %.1f m/s", name, speed_m_s);
+    OK(down == frames, "it always stands on a foot");
+    if (OK(worst < 0.03, "what is down stays within 3 cm")) printf("# %.1f mm at most\n", 1000 * worst);
+    else printf("# %.1f mm\n", 1000 * worst);
+}
+
+static void walkers_keep_their_feet_still(void)
+{
+    static const double speeds[] = { 0.8, 1.35, 2.0 };
+    for (size_t i = 0; i < COUNT(walkers); i++) {
+        struct error err = ERROR_NONE;
+        struct gait gait;
+        struct model *m = load_walker(walkers[i]);
+        if (!OK(m && gait_create(&gait, m, &err), "%s has a gait", walkers[i])) continue;
+        /* Made by its program for 1.42 and 1.36 m at 1.78 m of height, in a loop of a second. */
+        NEAR(gait.stride_m, i ? 1.264 : 1.416, 0.01, "its stride is what it was made for");
+        OK(gait.walks && gait.duration_s == 1, "it walks, in a loop of a second");
+        for (size_t k = 0; k < COUNT(speeds); k++) walk(m, &gait, speeds[k], walkers[i]);
+        gait_release(&gait);
+        model_destroy(m);
+    }
+}
+
+static void distance_tells_the_time(void)
+{
+    struct error err = ERROR_NONE;
+    struct gait gait;
+    struct model *m = load_walker(walkers[0]);
+    if (!OK(m && gait_create(&gait, m, &err), "a walker has a gait")) return;
+    bool ascending = gait.advance_m[0] == 0 && gait.advance_m[gait.samples] == gait.stride_m;
+    for (int i = 0; i < gait.samples; i++) ascending = ascending && gait.advance_m[i + 1] >= gait.advance_m[i];
+    OK(ascending, "the way ascends from 0 to the stride");
+    OK(gait_time(&gait, 0, 0) == 0, "at phase 0 the walk begins as the animation does");
+    NEAR(gait_time(&gait, gait.stride_m / 2, 0), 0.5, 0.01, "half a stride is half a loop: the steps are alike");
+    NEAR(gait_time(&gait, 0.31 + 7 * gait.stride_m, 0.2), gait_time(&gait, 0.31, 0.2), 1e-9, "the loop closes");
+    NEAR(gait_time(&gait, gait.stride_m - 1e-9, 0), 1, 1e-6, "at its end it is at the animation's end");
+    NEAR(gait_time(&gait, 0, 0.25), 0.25, 1e-9, "a phase is a part of the loop");
+    OK(fabs(gait_time(&gait, 1, 0.1) - gait_time(&gait, 1, 0.6)) > 0.4, "two who are out of step stay so");
+    NEAR(gait_time(&gait, 0.4, 1.25), gait_time(&gait, 0.4, 0.25), 1e-9, "phases beyond 1 begin again");
+    double gap = 0, back = 0, last = gait_time(&gait, 0, 0);
+    for (int i = 1; i < 400; i++) {
+        double now = gait_time(&gait, gait.stride_m * i / 400, 0);
+        gap = fmax(gap, now - last);
+        back = fmin(back, now - last);
+        last = now;
+    }
+    OK(gap < 0.005 && back == 0, "time goes on steadily with the way");
+    gait_release(&gait);
+    model_destroy(m);
+}
+
+static void who_stands_stands(void)
+{
+    /* A tetrahedron that nods: its foot at the origin stays. Rotations about y at 0, 1 and 2 s. */
+    struct bytes b = { .size = 0 };
+    add_floats(&b, (float[]){ 0, 0, 0, 0.1f, 0, 0, 0, 0.1f, 0, 0, 0, 1.5f }, 12);
+    memcpy(b.data + b.size, (uint8_t[]){ 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3 }, 12);
+    b.size += 12;
+    add_floats(&b, (float[]){ 0, 1, 2 }, 3);
+    add_floats(&b, (float[]){ 0, 0, 0, 1, 0, 0.001f, 0, 1, 0, 0, 0, 1 }, 12);
+    static const char file[] =
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":48},{\"buffer\":0,\"byteOffset\":48,\"byteLength\":12},{\"buffer\":0,\"byteOffset\":60,\"byteLength\":12},{\"buffer\":0,\"byteOffset\":72,\"byteLength\":48}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},{\"bufferView\":1,\"componentType\":5121,\"count\":12,\"type\":\"SCALAR\"},"
+        "{\"bufferView\":2,\"componentType\":5126,\"count\":3,\"type\":\"SCALAR\"},{\"bufferView\":3,\"componentType\":5126,\"count\":3,\"type\":\"VEC4\"}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}],\"nodes\":[{\"mesh\":0}],"
+        "\"animations\":[{\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"rotation\"}}],\"samplers\":[{\"input\":2,\"output\":3}]}]";
+    struct error err = ERROR_NONE;
+    struct gait gait;
+    struct model *m = load(put_gltf("nod.gltf", &b, file), &as_in_file);
+    if (OK(m && gait_create(&gait, m, &err), "somebody who nods has a gait")) {
+        OK(!gait.walks && gait.duration_s == 2, "but does not walk");
+        NEAR(gait_time(&gait, 5, 0.25), 0.5, 1e-12, "so that distance does not move it");
+        gait_release(&gait);
+    }
+    model_destroy(m);
+    m = load(put_text("still.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), &metres_z_up);
+    OK(m && !gait_create(&gait, m, &err) && err.code == ERR_INPUT && !strcmp(path_name(err.file), "still.obj") && !strcmp(err.text, "has no animation: it cannot walk"), "refuses a model without animation");
+    model_destroy(m);
+}
+
+static void wrong_fronts_are_refused(void)
+{
+    struct error err = ERROR_NONE;
+    struct gait gait;
+    char path[600];
+    const char *top = getenv("top_builddir");
+    snprintf(path, sizeof path, "%s/%s", top ? top : ".", walkers[0]);
+    struct model *m = load(path, &(struct model_options){ .axes_given = true, .up = AXIS_POS_Y, .front = AXIS_NEG_Z });
+    OK(m && !gait_create(&gait, m, &err) && err.code == ERR_INPUT && !strcmp(err.text, "walks backwards, 1.42 m in a loop: the opposite front axis would be right"), "refuses who walks backwards, and says why");
+    if (err.code != ERR_OK) printf("# %s\n", err.text);
+    model_destroy(m);
+}
+
+int main(void)
+{
+    if (!mkdtemp(folder)) return 1;
+    walkers_keep_their_feet_still();
+    distance_tells_the_time();
+    who_stands_stands();
+    wrong_fronts_are_refused();
+    remove_tree(folder);
+    return tap_done();
+}
