@@ -15,7 +15,7 @@ bool json_file_read(json_t **root, const char *path, json_type type, struct erro
     json_error_t at;
     json_t *read = json_loadb(data, size, JSON_REJECT_DUPLICATES, &at);
     free(data);
-    if (!read) return error_at(err, ERR_INPUT, path, at.line, at.column, "%s", at.text);
+    if (!read) return error_at(err, ERR_INPUT, path, at.line, at.column > 0 ? at.column : 1, "%s", at.text);
     if (json_typeof(read) != type) {
         json_decref(read);
         return error_at(err, ERR_INPUT, path, 1, 1, "must be an %s", type == JSON_ARRAY ? "array" : "object");

@@ -149,15 +149,15 @@ static bool import(const struct options *o, struct error *err)
     char *mesh = NULL, *roads = NULL, *text = NULL;
     bool ok = !file_exists(o->scene) ||
               error_at(err, ERR_INPUT, o->scene, 0, 0, "is there already, and may hold your work: give another name or remove it");
-    ok = ok && o->tool->read(&reconstruction, o->source, err);
-    if (ok) report_reconstruction(o->tool, &reconstruction);
-    ok = ok && photographs_find(&photographs, &reconstruction, o->scene, o->source, o->images, err) &&
+    ok = ok && o->tool->read(&reconstruction, o->source, err) &&
+         photographs_find(&photographs, &reconstruction, o->scene, o->source, o->images, err) &&
          (!o->mesh || (mesh = path_from(o->scene, o->mesh, err))) &&
          (!o->roads || (roads = path_from(o->scene, o->roads, err))) &&
          placement_find(&placement, &reconstruction, photographs.facts, &o->placement, err);
     if (ok) {
         const struct imported imported = { o->tool->name, &reconstruction, &photographs, &placement,
                                            o->utc_offset, mesh, roads };
+        report_reconstruction(o->tool, &reconstruction);
         report_placement(&placement);
         warn_of_focal(&reconstruction, photographs.facts);
         ok = scene_yaml_write(&text, &imported, err) && file_write(o->scene, text, strlen(text), err);

@@ -27,8 +27,10 @@ char *reconstruction_file(const char *path, const char *const *names, struct err
         error_at(err, ERR_INPUT, path, 0, 0, "is not there");
         return NULL;
     }
+    int length = (int)strlen(path);
+    while (length > 1 && path[length - 1] == '/') length--;
     for (const char *const *name = names; *name; name++) {
-        char *file = string_format("%s/%s", path, *name);
+        char *file = string_format("%.*s/%s", length, path, *name);
         if (file && file_exists(file)) return file;
         free(file);
     }

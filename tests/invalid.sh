@@ -1,6 +1,7 @@
 #!/bin/sh
 # Each folder of tests/invalid holds a scene.yaml that is at fault, itself or in what it names,
-# and the exact message that the program prints for it.
+# and the exact message that the program prints for it; or a reconstruction that is, and in a file
+# `import` the arguments of staffage-import.
 . "$top_srcdir/tests/tap.sh"
 
 STAFFAGE_DATADIR=$top_srcdir
@@ -9,7 +10,10 @@ export STAFFAGE_DATADIR
 for folder in "$top_srcdir"/tests/invalid/*/; do
     name=$(basename "$folder")
     cd "$folder" || exit 1
-    run "$top_builddir/staffage-gen" scene.yaml -o "$work/out"
+    # shellcheck disable=SC2046
+    if [ -f import ]; then run "$top_builddir/staffage-import" $(cat import)
+    else run "$top_builddir/staffage-gen" scene.yaml -o "$work/out"
+    fi
     cd "$work" || exit 1
     is "$status" 1 && cmp -s "$work/log" "$folder/error"
     ok $? "$name: $(cat "$folder/error")"
