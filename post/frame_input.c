@@ -94,6 +94,15 @@ static bool read_passes(struct frame_input *f, struct error *err)
     return ok;
 }
 
+/* How far away the ground is, for air and lens. */
+static bool read_ground(struct frame_input *f, struct error *err)
+{
+    const struct manifest *m = &f->manifest;
+    if (!m->has_mist && !(m->has_place && m->defocus_px > 0)) return true;
+    if (m->has_place && !m->depth[0]) return window_cut(&f->ground, &f->depth_before, m->view.window_px, err);
+    return read_layer_window(&f->ground, f, "place_depth.exr", 1, PIXEL_F32, err);
+}
+
 /* What only a frame in which something changes needs. */
 static bool read_layers(struct frame_input *f, struct error *err)
 {
@@ -101,9 +110,7 @@ static bool read_layers(struct frame_input *f, struct error *err)
     if (m->has_shares && (!read_layer_window(&f->visible, f, "visible.png", 1, PIXEL_U8, err) ||
                           !read_layer_window(&f->receiver, f, "receiver.png", 1, PIXEL_U8, err)))
         return false;
-    bool ground = m->has_mist || (m->has_place && m->defocus_px > 0);
-    return (!ground || read_layer_window(&f->ground, f, "place_depth.exr", 1, PIXEL_F32, err)) &&
-           (!m->has_motion || read_layer_window(&f->motion, f, "motion.exr", 3, PIXEL_F32, err)) && read_passes(f, err);
+    return read_ground(f, err) && (!m->has_motion || read_layer_window(&f->motion, f, "motion.exr", 3, PIXEL_F32, err)) && read_passes(f, err);
 }
 
 bool frame_input_read(struct frame_input *frame, const char *out, const char *name, struct error *err)

@@ -83,3 +83,8 @@ check_PROGRAMS += tests/post/stats.test
 tests_post_stats_test_SOURCES = %D%/stats.c tests/tap.h
 nodist_EXTRA_tests_post_stats_test_SOURCES = dummy.cxx
 tests_post_stats_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/spread.test
+tests_post_spread_test_SOURCES = %D%/spread.c %D%/layers.h tests/tap.h
+nodist_EXTRA_tests_post_spread_test_SOURCES = dummy.cxx
+tests_post_spread_test_LDADD = $(POST_LIBS)
