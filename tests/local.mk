@@ -186,6 +186,11 @@ tests_gen_fusion_test_SOURCES = %D%/gen/fusion.c %D%/tap.h
 nodist_EXTRA_tests_gen_fusion_test_SOURCES = dummy.cxx
 tests_gen_fusion_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/place.test
+tests_gen_place_test_SOURCES = %D%/gen/place.c %D%/tap.h
+nodist_EXTRA_tests_gen_place_test_SOURCES = dummy.cxx
+tests_gen_place_test_LDADD = $(GEN_LIBS)
+
 # make bench runs it.
 EXTRA_PROGRAMS += tests/bench/place.bench
 tests_bench_place_bench_SOURCES = %D%/bench/place.c
