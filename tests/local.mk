@@ -92,7 +92,7 @@ tests_gen_passes_test_SOURCES = %D%/gen/passes.c %D%/tap.h
 nodist_EXTRA_tests_gen_passes_test_SOURCES = dummy.cxx
 tests_gen_passes_test_LDADD = $(GEN_LIBS)
 check_PROGRAMS += tests/gen/gait.test
-tests_gen_gait_test_SOURCES = %D%/gen/gait.c %D%/tap.h
+tests_gen_gait_test_SOURCES = %D%/gen/gait.c %D%/gen/model_files.h %D%/gen/walker_files.h %D%/tap.h
 nodist_EXTRA_tests_gen_gait_test_SOURCES = dummy.cxx
 tests_gen_gait_test_LDADD = $(GEN_LIBS)
 
@@ -117,7 +117,7 @@ nodist_EXTRA_tests_gen_model_texture_test_SOURCES = dummy.cxx
 tests_gen_model_texture_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/rig.test
-tests_gen_rig_test_SOURCES = %D%/gen/rig.c %D%/gen/model_files.h %D%/gen/rig_table.h %D%/tap.h
+tests_gen_rig_test_SOURCES = %D%/gen/rig.c %D%/gen/model_files.h %D%/gen/rig_table.h %D%/gen/walker_files.h %D%/tap.h
 nodist_EXTRA_tests_gen_rig_test_SOURCES = dummy.cxx
 tests_gen_rig_test_LDADD = $(GEN_LIBS)
 
