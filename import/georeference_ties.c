@@ -107,7 +107,7 @@ static bool refuse_contradiction(const struct search *search, size_t agreeing, d
         if (named == 8 || used > sizeof names - 150) continue;
         named++;
         used += (size_t)snprintf(names + used, sizeof names - used, "%s%.100s", used ? ", " : "", search->ties[i].name);
-        if (search->found) used += (size_t)snprintf(names + used, sizeof names - used, " (%.1f m off)", error_m);
+        if (search->found) used += (size_t)snprintf(names + used, sizeof names - used, " (%.3g m off)", error_m);
     }
     if (bad > named) snprintf(names + used, sizeof names - used, " and %zu more", bad - named);
     return error_set(err, ERR_INPUT,

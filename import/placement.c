@@ -5,6 +5,7 @@
 #include "lib/place.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -98,6 +99,7 @@ bool placement_find(struct placement *placement, const struct reconstruction *re
     case PLACEMENT_POINTS:
         ok = control_points_read(&found.ties, &found.tie_count, found.origin_lat_lon_h, request->points_file, err) &&
              fit(&found, reconstruction, POINT_INLIER_M, err);
+        if (!ok && !err->file[0]) snprintf(err->file, sizeof err->file, "%s", request->points_file);
         break;
     case PLACEMENT_DISTANCE:
         ok = georeference_distance(&found.world_from_reconstruction, &found.upright, reconstruction, request->p,

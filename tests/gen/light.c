@@ -46,7 +46,7 @@ static void check_irradiance(void)
     /* Moon and Spencer 1942: the overcast sky gives a wall 39.6 % of what it gives the ground; half of what
      * the wall sees is ground. */
     light_irradiance(rgb, &light, vec3(0.6, -0.8, 0));
-    NEAR(rgb[1], 0.396 + 0.2 / 2, 1e-3, "an overcast wall gets 39.6 % and the ground's half");
+    NEAR(rgb[1], 0.396 + 0.2 / 2, 1e-3, "an overcast wall gets 39.6 %% and the ground's half");
     light_release(&light);
 
     scene = scene_with(SKY_CLEAR, 35, 3);

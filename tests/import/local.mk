@@ -33,4 +33,4 @@ check_PROGRAMS += tests/import/scene.test
 tests_import_scene_test_SOURCES = %D%/scene.c %D%/scratch.h tests/tap.h
 nodist_EXTRA_tests_import_scene_test_SOURCES = dummy.cxx
 tests_import_scene_test_LDADD = import/libimport.a $(GEN_LIBS) $(EXIF_LIBS)
-dist_check_SCRIPTS += tests/import.sh
+dist_check_SCRIPTS += tests/import.sh %D%/positions.sh
