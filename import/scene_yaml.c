@@ -122,8 +122,8 @@ static void put_shots(FILE *f, const struct imported *in)
     bool times = scene_yaml_has_times(in);
     fputs("\nshots:\n", f);
     if (!times)
-        fputs("  # no times: the photographs do not tell them with an offset from UTC, and some of what moves or of the\n"
-              "  # sun needs them. staffage import --utc-offset +HH:MM writes them where EXIF has local time.\n", f);
+        fputs("  # No times: the photographs' EXIF does not tell them with an offset from UTC. The sun and whatever moves need\n"
+              "  # them; staffage import --utc-offset +HH:MM writes them where EXIF has the local time.\n", f);
     for (size_t i = 0; i < r->shot_count; i++) {
         struct pose pose = placement_shot(in->placement, &r->shots[i]);
         fputs("  - photograph: ", f);
