@@ -33,23 +33,27 @@ static uint8_t share(uint64_t hidden_samples)
     return (uint8_t)lround(255.0 * (64 - __builtin_popcountll(hidden_samples)) / 64);
 }
 
-/* The entity at a pixel, or the nearest within `reach` pixels of it. False where there is none. */
+/* The entity at a pixel, or at the pixel nearest to it, at most `reach` columns and rows away; the nearer of two as near.
+ * False where there is none. */
 static bool entity_near(const struct shares *s, double *range_m, int *eu, int *ev, int x, int y, int reach)
 {
     const struct image *ahead = s->in->ahead;
-    float near = *image_f32(ahead, x, y);
+    int least = 3 * reach * reach;
+    *range_m = (double)*image_f32(ahead, x, y);
     *eu = x;
     *ev = y;
-    if (!isfinite(near))
-        for (int v = y > reach ? y - reach : 0; v <= y + reach && v < s->height_px; v++)
-            for (int u = x > reach ? x - reach : 0; u <= x + reach && u < s->width_px; u++)
-                if (*image_f32(ahead, u, v) < near) {
-                    near = *image_f32(ahead, u, v);
-                    *eu = u;
-                    *ev = v;
-                }
-    *range_m = (double)near;
-    return isfinite(near);
+    if (isfinite(*range_m)) return true;
+    for (int v = y > reach ? y - reach : 0; v <= y + reach && v < s->height_px; v++)
+        for (int u = x > reach ? x - reach : 0; u <= x + reach && u < s->width_px; u++) {
+            int away = (u - x) * (u - x) + (v - y) * (v - y);
+            double range = (double)*image_f32(ahead, u, v);
+            if (!isfinite(range) || away > least || (away == least && range >= *range_m)) continue;
+            least = away;
+            *range_m = range;
+            *eu = u;
+            *ev = v;
+        }
+    return isfinite(*range_m);
 }
 
 /* The point of the entity that stands for it at a pixel. */
@@ -96,7 +100,7 @@ static void judge_row(struct shares *s, int y)
             int u, v;
             if (state[x] & NEAR || !entity_near(s, &range, &u, &v, x, y, beyond)) continue;
             state[x] |= NEAR;
-            if (entity_near(s, &range, &u, &v, x, y, EDGE_PX)) state[x] |= REACHED;
+            if (abs(u - x) <= EDGE_PX && abs(v - y) <= EDGE_PX) state[x] |= REACHED;
             double place = (double)*image_f32(&in->backdrop->range, x, y);
             if (place >= range || !rays_get(in->rays, &direction, x) || !sighted_at(s, &point, x, y, beyond)) continue;
             if (backdrop_hides(in->backdrop, backdrop_direction(in->backdrop, direction), place,

@@ -57,8 +57,9 @@ struct entity_labels {
 struct frame_labels {
     struct image instance;        /* U16 1: entity id, 0 none */
     struct image depth;           /* F32 1: z of the visible entity, NaN elsewhere */
-    struct image visible;         /* U8 1: 255 x share (8 x 8 samples) of the nearest entity at this pixel, or within
-                                   * EDGE_PX of it, that nothing static hides; 255 elsewhere; empty without occluders and place */
+    struct image visible;         /* U8 1: 255 x share (8 x 8 samples) of the entity at this pixel, or of that at the nearest
+                                   * pixel at most EDGE_PX away, that nothing static hides; 255 elsewhere; empty without
+                                   * occluders and place */
     struct image receiver;        /* U8 1: the same for what receives shadows: the ground plane, or the place within
                                    * the receivers; empty without occluders and place */
     struct image place_depth;     /* F32 1: z of the place, whatever entity is before it, NaN where there is none;
