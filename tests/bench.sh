@@ -56,3 +56,7 @@ for scene in "$top_srcdir"/tests/bench/labels/*.yaml; do
     done
     median <"$work/generate.user" | awk -v name="$name" '{ printf "%-28s %7.2f s\n", name " labels", $1 }'
 done
+
+# The place as mesh, by its size.
+echo
+"$top_builddir/tests/bench/place.bench" "$shared/data/brighton/mesh.ply" 8.3 "$work"
