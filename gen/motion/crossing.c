@@ -8,57 +8,77 @@
 
 #define CLEARANCE_M 0.15
 #define LONGEST_CUT_M 15.0    /* a track that runs beside another for longer does not just end on it */
-#define LARGEST_CUT 0.4       /* of its length */
+#define LARGEST_CUT 0.5       /* of its length */
 #define ITSELF 2.5            /* a track comes back to itself after so many clearances */
 #define PERSON_NOTICE_M 3.0
 #define CALM_M_S2 1.5         /* how hard one means to brake for a crossing */
 #define STOOD_M_S 0.05
 
-/* A track at every TRACK_STEP_M: how far beside it a body may reach there. */
-struct spot { struct vec2 p_m; double reach_m; bool near; size_t crossing; };
-struct spots { struct spot *at; size_t n; double reach_m; enum road_use use; };
+/* A track at every TRACK_STEP_M: how far to its left and right a body may reach there. */
+struct spot { struct vec2 p_m, direction; double left_m, right_m; bool near; size_t crossing; };
+struct spots { struct spot *at; size_t n; double reach_m; };
+
+static double spot_s(const struct track *track, size_t i)
+{
+    return fmin((double)i * TRACK_STEP_M, path_length(&track->path));
+}
 
 static bool spots_create(struct spots *spots, const struct track *track, struct body_size size)
 {
-    *spots = (struct spots){ .n = track->samples, .use = track->use, .at = calloc(track->samples, sizeof *spots->at) };
+    *spots = (struct spots){ .n = track->samples, .at = calloc(track->samples, sizeof *spots->at) };
     if (!spots->at) return false;
     double half = size.length_m / 2;
     for (size_t i = 0; i < spots->n; i++) {
-        double s = (double)i * TRACK_STEP_M;
-        spots->at[i].p_m = path_at(&track->path, s, 0).p_m;
-        /* A vehicle lies straight over a bend; a person may be anywhere on the width, and turned. */
-        double more = track->use == ROAD_VEHICLES ? track_curvature(track, s, half) * half * half / 2
-                                                  : walk_range(track, size.width_m) + 0.4 * half;
-        spots->at[i].reach_m = size.width_m / 2 + more;
-        spots->reach_m = fmax(spots->reach_m, spots->at[i].reach_m);
+        struct path_point at = path_at(&track->path, spot_s(track, i), 0);
+        struct spot *spot = &spots->at[i];
+        spot->p_m = at.p_m;
+        spot->direction = (struct vec2){ sin(at.heading_rad), cos(at.heading_rad) };
+        spot->left_m = spot->right_m = size.width_m / 2;
+        if (track->use == ROAD_VEHICLES) {
+            /* Its middle on the lane, a vehicle lies straight over a bend: its ends swing out. */
+            double left, right;
+            track_bends(track, &left, &right, spot_s(track, i), half);
+            spot->left_m += right * half * half / 2;
+            spot->right_m += left * half * half / 2;
+        } else { /* A person may be anywhere on the width, and turned. */
+            spot->left_m = spot->right_m += walk_range(track, size.width_m) + 0.4 * half;
+        }
+        spots->reach_m = fmax(spots->reach_m, fmax(spot->left_m, spot->right_m));
     }
     return true;
 }
 
+static double reach_towards(const struct spot *spot, struct vec2 p_m)
+{
+    double aside = spot->direction.x * (p_m.y - spot->p_m.y) - spot->direction.y * (p_m.x - spot->p_m.x);
+    return aside > 0 ? spot->left_m : spot->right_m;
+}
+
 static bool used(const struct track *track, size_t i)
 {
-    double s = (double)i * TRACK_STEP_M;
+    double s = spot_s(track, i);
     return s >= track->begin_m && s <= track->end_m;
 }
 
 typedef bool on_near(void *context, size_t a, size_t i, size_t b, size_t j);
 
-/* Call for every two spots where bodies could touch. People and people are left to themselves. */
-static bool each_near(const struct spots *spots, const struct track *tracks, size_t track_count, on_near *call, void *context)
+/* Call for every two spots where bodies could touch. */
+static bool each_near(const struct spots *spots, const struct track *tracks, size_t track_count, on_near *call,
+                      void *context)
 {
     for (size_t a = 0; a < track_count; a++)
         for (size_t b = a; b < track_count; b++) {
-            if (spots[a].use == ROAD_PEOPLE && spots[b].use == ROAD_PEOPLE) continue;
             for (size_t i = 0; i < spots[a].n; i++) {
                 if (!used(&tracks[a], i)) continue;
                 const struct spot *p = &spots[a].at[i];
-                double most = p->reach_m + spots[b].reach_m + CLEARANCE_M;
+                double most = fmax(p->left_m, p->right_m) + spots[b].reach_m + CLEARANCE_M;
                 size_t first = a == b ? i + (size_t)ceil(ITSELF * most / TRACK_STEP_M) : 0;
                 for (size_t j = first; j < spots[b].n;) {
                     const struct spot *q = &spots[b].at[j];
                     double d = hypot(p->p_m.x - q->p_m.x, p->p_m.y - q->p_m.y);
-                    if (d < p->reach_m + q->reach_m + CLEARANCE_M && used(&tracks[b], j) && !call(context, a, i, b, j))
-                        return false;
+                    bool near = d < most && used(&tracks[b], j) &&
+                                d < reach_towards(p, q->p_m) + reach_towards(q, p->p_m) + CLEARANCE_M;
+                    if (near && !call(context, a, i, b, j)) return false;
                     /* Along the curve one comes no nearer than straight. */
                     j += (size_t)fmax(1, floor((d - most) / TRACK_STEP_M));
                 }
@@ -86,7 +106,8 @@ static void cut_ends(struct track *track, const struct spots *spots)
     while (first < spots->n && spots->at[first].near) first++;
     while (last > 0 && spots->at[last].near) last--;
     double most = fmin(LONGEST_CUT_M, LARGEST_CUT * track->end_m);
-    double begin = (double)first * TRACK_STEP_M, end = (double)last * TRACK_STEP_M;
+    if (first > last) return;
+    double begin = spot_s(track, first), end = spot_s(track, last);
     if (first > 0 && begin <= most) track->begin_m = begin;
     if (last + 1 < spots->n && track->end_m - end <= most) track->end_m = end;
 }

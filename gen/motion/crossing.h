@@ -1,8 +1,7 @@
 /* Where tracks come so near that two bodies could touch: first come, first served.
  *
  * A crossing is a stretch of one track, against stretches of others. Who is in it holds it, and while it is
- * held nobody may enter one that it is against. So bodies of different tracks never meet.
- * People do not hold up people: they step aside. */
+ * held nobody may enter one that it is against. So bodies of different tracks never meet. */
 #ifndef STAFFAGE_GEN_CROSSING_H
 #define STAFFAGE_GEN_CROSSING_H
 

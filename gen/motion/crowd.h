@@ -51,20 +51,22 @@ static inline double body_end(const struct body *body)
 {
     return body->direction > 0 ? body->track->end_m : -body->track->begin_m;
 }
-/* Set p_m and heading_rad from the place on the track: forward, and turned into a sidestep. */
+/* Set p_m and heading_rad from the place on the track. */
 void body_place(struct body *body);
-/* Are the two nearer than margin_m? (Boxes on the ground, separating axes.) */
-bool bodies_touch(const struct body *a, const struct body *b, double margin_m);
 
 /* One step of everybody's, from crossings to leaving: the vehicles' (drive.c) and the people's (walk.c). */
 void crowd_drive(struct crowd *crowd);
 void crowd_walk(struct crowd *crowd);
 
+/* How fast a body may begin at its place: no faster than it can keep up. */
+double drive_first_speed(const struct crowd *crowd, const struct body *body);
+double walk_first_speed(const struct crowd *crowd, const struct body *body);
+
 /* How far from the middle of its track a person this wide may be. */
 double walk_range(const struct track *track, double width_m);
 /* How far to his right one is who passes another that does as much; a track with less range is walked one way. */
-double walk_aside(double width_m);
-/* How fast a vehicle may begin at its place: no faster than it can keep up. */
-double drive_first_speed(const struct crowd *crowd, const struct body *body);
+double walk_aside(double length_m, double width_m);
+/* Do two people on a track need the same room, along_m more of it along? */
+bool walkers_touch(const struct body *a, const struct body *b, double along_m);
 
 #endif

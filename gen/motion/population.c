@@ -9,7 +9,7 @@
 #define PEOPLE_SPREAD 0.15
 #define EXTREME 2.5           /* standard deviations, no farther */
 #define PLACE_GAP_M 2.5       /* between vehicles at the beginning */
-#define PERSON_GAP_M 0.6
+#define PERSON_GAP_M 0.8
 
 static double draw(const struct traffic_options *options, uint32_t n, enum draw_purpose purpose, uint32_t index)
 {
@@ -51,13 +51,18 @@ struct body_size largest_of(const struct traffic_options *options, bool is_perso
     return size;
 }
 
+static bool is_passable(const struct track *track, struct body_size size)
+{
+    return walk_range(track, size.width_m) >= walk_aside(size.length_m, size.width_m);
+}
+
 /* A person's direction and place on the width: to the right, and on a path too narrow to pass all one way. */
 static void choose_side(struct body *body, const struct crowd *crowd, const struct traffic_options *options, bool backward)
 {
-    double range = walk_range(body->track, body->width_m), least = walk_aside(body->width_m);
+    double range = walk_range(body->track, body->width_m), least = walk_aside(body->length_m, body->width_m);
     uint32_t n = (uint32_t)(body->id - options->first_id), track = (uint32_t)(body->track - crowd->tracks);
     double place = draw(options, n, DRAW_OFFSET, 0);
-    bool narrow = walk_range(body->track, largest_of(options, true).width_m) < walk_aside(largest_of(options, true).width_m);
+    bool narrow = !is_passable(body->track, largest_of(options, true));
     if (narrow) backward = draw(options, UINT32_MAX - track, DRAW_LANE, 0) < 0.5;
     body->direction = backward ? -1 : 1;
     body->wish_offset_m = narrow ? range * (2 * place - 1) : -body->direction * (least + (range - least) * place);
@@ -70,9 +75,9 @@ static bool settle(struct crowd *crowd, struct body *body, bool outside_crossing
     body_place(body);
     for (size_t i = 0; i < crowd->count; i++) {
         const struct body *other = &crowd->bodies[i];
-        if (body->is_person ? other->is_person && bodies_touch(body, other, 0.3)
-                            : other->track == body->track && fabs(other->s_m - body->s_m) <
-                                  (other->length_m + body->length_m) / 2 + STANDING_GAP_M)
+        double apart = fabs(other->s_m - body->s_m) - (other->length_m + body->length_m) / 2;
+        if (other->track != body->track) continue;
+        if (body->is_person ? walkers_touch(body, other, PERSON_GAP_M / 2) : apart < STANDING_GAP_M)
             return false;
     }
     if (!crossing_appear(crowd, body)) return false;
@@ -80,9 +85,7 @@ static bool settle(struct crowd *crowd, struct body *body, bool outside_crossing
         crossing_leave(crowd, body);
         return false;
     }
-    body->speed_m_s = body->wish_m_s;
-    if (body->is_person) body->speed_m_s = fmin(body->wish_m_s, sqrt(2 * fmax(0, crossing_room(crowd, body) - 0.15)));
-    else body->speed_m_s = drive_first_speed(crowd, body);
+    body->speed_m_s = body->is_person ? walk_first_speed(crowd, body) : drive_first_speed(crowd, body);
     crowd->bodies[crowd->count++] = *body;
     return true;
 }
@@ -108,8 +111,7 @@ static struct place *places_create(size_t *count, const struct crowd *crowd, con
         struct track *track = &crowd->tracks[t];
         double free_m = track->end_m - track->begin_m - size.length_m;
         if (track->use != use_of(is_person) || free_m < 0) continue;
-        bool passable = is_person && walk_range(track, size.width_m) >= walk_aside(size.width_m);
-        size_t along = (size_t)(free_m / pitch) + 1, abreast = passable ? 2 : 1;
+        size_t along = (size_t)(free_m / pitch) + 1, abreast = is_person && is_passable(track, size) ? 2 : 1;
         double slack = free_m - (double)(along - 1) * pitch;
         struct place *more = realloc(places, (*count + along * abreast) * sizeof *more);
         if (!more) {

@@ -149,8 +149,9 @@ static bool track_from_strand(struct track *track, const struct strand *strand, 
         double part = fmin((double)i * TRACK_STEP_M / new.end_m, 1);
         new.limit_m_s[i] = strand->limit_m_s[(size_t)lround(part * (double)(strand->n - 1))];
         /* The sample answers for the curve up to its neighbours. */
-        double bend = track_curvature(&new, (double)i * TRACK_STEP_M, TRACK_STEP_M);
-        new.bend_m_s[i] = sqrt(lateral_m_s2 / fmax(bend, 1e-6));
+        double left, right;
+        track_bends(&new, &left, &right, (double)i * TRACK_STEP_M, TRACK_STEP_M);
+        new.bend_m_s[i] = sqrt(lateral_m_s2 / fmax(fmax(left, right), 1e-6));
     }
     for (size_t i = new.samples - 1; i-- > 0;) {
         double ahead = new.bend_m_s[i + 1];
@@ -224,10 +225,12 @@ double track_bend_speed(const struct track *track, double s_m)
     return sqrt(a * a + part * (b * b - a * a));
 }
 
-double track_curvature(const struct track *track, double s_m, double around_m)
+void track_bends(const struct track *track, double *left, double *right, double s_m, double around_m)
 {
-    double most = 0;
-    for (double s = s_m - around_m; s <= s_m + around_m; s += PATH_STEP_M)
-        most = fmax(most, fabs(path_at(&track->path, s, 0).curvature));
-    return most;
+    *left = *right = 0;
+    for (double s = s_m - around_m; s <= s_m + around_m; s += PATH_STEP_M) {
+        double bend = path_at(&track->path, s, 0).curvature;
+        *left = fmax(*left, bend);
+        *right = fmax(*right, -bend);
+    }
 }

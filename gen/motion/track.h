@@ -31,7 +31,7 @@ void tracks_destroy(struct track *tracks, size_t count);
 double track_limit(const struct track *track, double s_m);
 /* Between samples: as the braking goes, v^2 is linear along the track. */
 double track_bend_speed(const struct track *track, double s_m);
-/* Largest |curvature| within around_m of s_m. */
-double track_curvature(const struct track *track, double s_m, double around_m);
+/* The tightest bends to the left and to the right (1/m, 0: none) within around_m of s_m. */
+void track_bends(const struct track *track, double *left, double *right, double s_m, double around_m);
 
 #endif

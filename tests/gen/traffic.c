@@ -127,7 +127,7 @@ static struct findings watch(const struct traffic *traffic, double end_s)
                 if (!use) f.hardest_brake_m_s2 = fmax(f.hardest_brake_m_s2, (last[k].speed_m_s - now[i].speed_m_s) / dt);
                 double heading = (now[i].heading_rad + last[k].heading_rad) / 2;
                 if (turn < 1 && fabs(now[i].heading_rad) < 3 && step > 0.05)
-                    f.slides += fabs(dx * cos(heading) - dy * sin(heading)) > 0.02 + 0.1 * step;
+                    f.slides += fabs(dx * cos(heading) - dy * sin(heading)) > 0.02 + 0.15 * step;
             }
         }
         for (int use = 0; use < 2; use++) {
