@@ -8,7 +8,6 @@
 #define WIDEST_M 1.5          /* nobody strays farther from the middle of a wide path */
 #define EDGE_M 0.02
 #define AHEAD_M 7.0
-#define ONCOMING_M 12.0       /* nobody overtakes on the left with one coming this near */
 #define SPACE_M 0.04          /* beside each other */
 #define BEHIND_M 0.2          /* in file */
 #define CHOICES 8             /* places to either side that are weighed */
@@ -45,7 +44,7 @@ struct sight { double x, y, vx, vy, length, width; };
 
 static bool see(struct sight *sight, const struct body *body, const struct body *other)
 {
-    if (other->id == body->id || other->track != body->track || fabs(other->s_m - body->s_m) > ONCOMING_M) return false;
+    if (other->id == body->id || other->track != body->track || fabs(other->s_m - body->s_m) > 2 * AHEAD_M) return false;
     /* On the inside of a bend the track's length is less of a way. */
     double bend = path_at(&body->track->path, (body->s_m + other->s_m) / 2, 0).curvature;
     double way = fmax(1 - bend * (body->offset_m + other->offset_m) / 2, 0.3);
@@ -82,17 +81,21 @@ static double hindrance(const struct body *body, struct sight sight, double offs
     return 2 / (0.3 + time);
 }
 
+/* Does anybody come towards him, however far? */
 static bool is_met(const struct crowd *crowd, const struct body *body)
 {
-    struct sight sight;
-    for (size_t i = 0; i < crowd->count; i++)
-        if (crowd->bodies[i].direction != body->direction && see(&sight, body, &crowd->bodies[i]) && sight.x > -sight.length)
+    for (size_t i = 0; i < crowd->count; i++) {
+        const struct body *other = &crowd->bodies[i];
+        if (other->track == body->track && other->direction != body->direction &&
+            body->direction * (other->s_m - body->s_m) > -berth_length(other))
             return true;
+    }
     return false;
 }
 
-/* The offset to aim for: near the wished one and the present one, out of others' way. Those who meet keep
- * to the right: two rows that met face to face would stand for ever. */
+/* The offset to aim for: near the wished one and the present one, out of others' way. Those who meet keep to
+ * their right half. Only with nobody ahead is the other half free for overtaking: so no two who overtake
+ * ever come face to face with others beside them, to stand for ever. */
 static double choose_offset(const struct crowd *crowd, const struct body *body)
 {
     double range = walk_range(body->track, body->width_m), best = INFINITY, chosen = body->offset_m;

@@ -93,7 +93,7 @@ static bool overlap(const struct mover *a, const struct mover *b)
 struct findings {
     size_t fewest[2], most[2];           /* vehicles, people present */
     int overlaps, jumps, slides;
-    double fastest_turn_rad_s, hardest_brake_m_s2, mean_speed[2], stood[2];
+    double fastest_turn_rad_s, hardest_brake_m_s2, most_lateral_m_s2, mean_speed[2], stood[2];
     double walked_abreast_m;             /* nearest two people came */
 };
 
@@ -124,6 +124,7 @@ static struct findings watch(const struct traffic *traffic, double end_s)
                            now[i].is_person != last[k].is_person || now[i].kind != last[k].kind ||
                            now[i].color != last[k].color || now[i].distance_m < last[k].distance_m;
                 f.fastest_turn_rad_s = fmax(f.fastest_turn_rad_s, turn);
+                if (!use) f.most_lateral_m_s2 = fmax(f.most_lateral_m_s2, turn * (now[i].speed_m_s + last[k].speed_m_s) / 2);
                 if (!use) f.hardest_brake_m_s2 = fmax(f.hardest_brake_m_s2, (last[k].speed_m_s - now[i].speed_m_s) / dt);
                 double heading = (now[i].heading_rad + last[k].heading_rad) / 2;
                 if (turn < 1 && fabs(now[i].heading_rad) < 3 && step > 0.05)
@@ -147,9 +148,9 @@ static struct findings watch(const struct traffic *traffic, double end_s)
 static void print(const struct findings *f)
 {
     printf("# vehicles %zu to %zu, mean %.1f m/s, standing %.0f %%; people %zu to %zu, mean %.2f m/s, standing %.0f %%; "
-           "turn %.2f rad/s, braking %.1f m/s^2, people %.2f m apart\n", f->fewest[0], f->most[0], f->mean_speed[0],
+           "turn %.2f rad/s, people %.2f m apart\n", f->fewest[0], f->most[0], f->mean_speed[0],
            100 * f->stood[0], f->fewest[1], f->most[1], f->mean_speed[1], 100 * f->stood[1], f->fastest_turn_rad_s,
-           f->hardest_brake_m_s2, f->walked_abreast_m);
+           f->walked_abreast_m);
 }
 
 /* Two streets that cross, one with sidewalks, and a footway over the other. */
@@ -187,10 +188,155 @@ static void test_run(const char *name, const struct plan *plans, size_t n, size_
         OK(f.fewest[0] + 2 >= vehicles && f.most[0] == vehicles && f.fewest[1] + 2 >= people && f.most[1] == people,
            "as many as asked for are about all the time");
         OK(f.jumps == 0 && f.slides == 0, "each goes on from where it was, the way it heads (%d jumps, %d slides)", f.jumps, f.slides);
-        OK(f.fastest_turn_rad_s < 1.6 && f.hardest_brake_m_s2 < 6, "headings and speeds change as bodies can");
-        OK(f.mean_speed[0] > 1.5 && f.mean_speed[1] > 0.9 && f.stood[1] < 0.25, "and they get on");
+        OK(f.fastest_turn_rad_s < 1.6, "headings turn as bodies can");
+        OK(f.most_lateral_m_s2 < 2.1, "vehicles keep v^2 * curvature within 2 m/s^2 (%.2f)", f.most_lateral_m_s2);
+        OK(f.hardest_brake_m_s2 < 2.5, "and brake early enough to do it gently (%.1f m/s^2)", f.hardest_brake_m_s2);
+        OK(f.mean_speed[0] > 1.5 && f.mean_speed[1] > 0.9 && f.stood[1] < 0.25, "all get on");
         traffic_destroy(traffic);
     }
+    tear_down(&roads);
+}
+
+static bool same(const struct mover *a, const struct mover *b)
+{
+    return a->id == b->id && a->is_person == b->is_person && a->kind == b->kind && a->color == b->color && a->p_m.x == b->p_m.x &&
+           a->p_m.y == b->p_m.y && a->heading_rad == b->heading_rad && a->speed_m_s == b->speed_m_s &&
+           a->distance_m == b->distance_m && a->phase == b->phase;
+}
+
+static void test_seeds(void)
+{
+    static struct mover a[LIMIT], b[LIMIT];
+    struct road_network roads = build(beach, 4);
+    struct traffic_options options = options_for(12, 12, 42);
+    struct traffic *one = make(&roads, &options, 60), *again = make(&roads, &options, 60);
+    bool equal = true, ordered = true;
+    for (int k = 0; k <= 40; k++) { /* one is asked forwards, the other in leaps */
+        double t = 1.5 * (k * 17 % 41);
+        for (int early = 0; early <= k % 3; early++) traffic_at(one, a, 59 - early);
+        size_t n = traffic_at(one, a, t), m = traffic_at(again, b, t);
+        equal = equal && n == m && n == 24;
+        for (size_t i = 0; i < n && i < m; i++) {
+            equal = equal && same(&a[i], &b[i]);
+            ordered = ordered && (i == 0 || a[i].id > a[i - 1].id) && a[i].id >= 1 && a[i].id <= traffic_mover_count(one);
+        }
+    }
+    OK(equal && traffic_mover_count(one) == traffic_mover_count(again), "the same seed is the same scenario, in any order of times");
+    OK(ordered, "ids ascend, none twice, within the count that is told");
+
+    static bool seen[LIMIT], gone[LIMIT];
+    bool returns = false;
+    size_t ids = 0;
+    for (double t = 0; t <= 60; t += 0.05) {
+        bool now[LIMIT] = { false };
+        size_t n = traffic_at(one, a, t);
+        for (size_t i = 0; i < n; i++) now[a[i].id] = true;
+        for (size_t id = 1; id <= traffic_mover_count(one); id++) {
+            returns = returns || (now[id] && gone[id]);
+            ids += now[id] && !seen[id];
+            gone[id] = seen[id] && !now[id];
+            seen[id] = seen[id] || now[id];
+        }
+    }
+    OK(ids == traffic_mover_count(one) && !returns, "every id is somebody's, once: who left does not come back");
+
+    size_t n = traffic_at(one, a, 30);
+    double phase = 0, slowest = 9, fastest = 0;
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; a[i].is_person && k < i; k++)
+            if (a[k].is_person) {
+                phase = fmax(phase, fabs(a[i].phase - a[k].phase));
+                slowest = fmin(slowest, a[i].speed_m_s);
+                fastest = fmax(fastest, a[i].speed_m_s);
+            }
+    OK(phase > 0.5 && fastest - slowest > 0.2, "people are out of step and each has his speed (%.2f to %.2f m/s)", slowest, fastest);
+    options.seed = 43;
+    struct traffic *other = make(&roads, &options, 60);
+    size_t m = traffic_at(other, b, 30), alike = 0;
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < m; k++) alike += hypot(a[i].p_m.x - b[k].p_m.x, a[i].p_m.y - b[k].p_m.y) < 0.05;
+    OK(alike < 3, "another seed is another scenario");
+    traffic_destroy(one);
+    traffic_destroy(again);
+    traffic_destroy(other);
+    tear_down(&roads);
+}
+
+static void test_refused(void)
+{
+    struct road_network roads = build(beach, 2);
+    struct traffic *traffic = NULL;
+    struct error err = ERROR_NONE;
+    struct traffic_options options = options_for(500, 0, 1);
+    int fit = 0;
+    OK(!traffic_create(&traffic, &roads, &options, 0, 5, &err) && err.code == ERR_INPUT && !traffic, "500 cars on 170 m are refused");
+    const char *told = strrchr(err.text, ':');
+    OK(told && sscanf(told, ": %d do", &fit) == 1 && fit >= 18 && fit <= 24, "with how many fit: %s", err.text);
+    options.vehicle_count = (size_t)fit;
+    err = ERROR_NONE;
+    OK(traffic_create(&traffic, &roads, &options, 0, 5, &err), "and so many do fit");
+    traffic_destroy(traffic);
+    traffic = NULL;
+    options = options_for(0, 4, 1);
+    roads.way_count = 1;
+    err = ERROR_NONE;
+    OK(!traffic_create(&traffic, &roads, &options, 0, 5, &err) && strstr(err.text, "footway"), "people without a footway are refused: %s",
+       err.text);
+    options = options_for(2, 0, 1);
+    options.vehicle_kinds = 0;
+    err = ERROR_NONE;
+    OK(!traffic_create(&traffic, &roads, &options, 0, 5, &err) && strstr(err.text, "model"), "vehicles without a model are refused");
+    options = options_for(2, 0, 1);
+    options.first_id = 65534;
+    err = ERROR_NONE;
+    OK(!traffic_create(&traffic, &roads, &options, 0, 600, &err) && strstr(err.text, "ids"), "so are more than there are ids for");
+    err = ERROR_NONE;
+    options = options_for(0, 0, 1);
+    static struct mover movers[1];
+    OK(traffic_create(&traffic, &roads, &options, 0, 5, &err) && traffic_mover_count(traffic) == 0 &&
+       traffic_at(traffic, movers, 3) == 0, "nobody is nobody");
+    traffic_destroy(traffic);
+    roads.way_count = 2;
+    tear_down(&roads);
+}
+
+/* A street in two pieces, the second slower, and a path too narrow for two. */
+static void test_lanes(void)
+{
+    static struct mover now[LIMIT];
+    static const struct vec2 west[2] = { { -80, 0 }, { 0, 0 } }, east[2] = { { 0, 0.2 }, { 80, 10 } },
+                             narrow[2] = { { 0, 40 }, { 60, 40 } };
+    const struct plan plans[] = { { ROAD_VEHICLES, west, 2, { -1.5 }, 3, { false }, 1, 0 },
+                                  { ROAD_VEHICLES, east, 2, { -1.5 }, 3, { false }, 1, 4 },
+                                  { ROAD_PEOPLE, narrow, 2, { 0 }, 0.9, { false }, 1, 0 } };
+    struct road_network roads = build(plans, 3);
+    struct traffic_options options = options_for(4, 6, 5);
+    struct traffic *traffic = make(&roads, &options, 60);
+    bool crossed[LIMIT] = { false }, before[LIMIT] = { false };
+    size_t across = 0;
+    double fastest[2] = { 0 }, east_going = 0, walking = 0;
+    for (double t = 0; t < 60; t += 0.25) {
+        size_t n = traffic_at(traffic, now, t);
+        for (size_t i = 0; i < n; i++) {
+            if (now[i].is_person) {
+                walking++;
+                east_going += sin(now[i].heading_rad) > 0;
+                continue;
+            }
+            if (now[i].p_m.x < -2) before[now[i].id] = true;
+            if (now[i].p_m.x > 2 && before[now[i].id] && !crossed[now[i].id]) {
+                crossed[now[i].id] = true;
+                across++;
+            }
+            if (now[i].p_m.x < 0) fastest[0] = fmax(fastest[0], now[i].speed_m_s);
+            if (now[i].p_m.x > 20) fastest[1] = fmax(fastest[1], now[i].speed_m_s);
+        }
+    }
+    OK(across >= 4, "where a way goes on in another, so do those who drive on it (%zu did)", across);
+    OK(fastest[0] > 7 && fastest[1] < 4 * 1.25 + 0.2, "as fast as they wish (%.1f m/s), where the law lets them (%.1f m/s)", fastest[0],
+       fastest[1]);
+    OK(walking > 500 && (east_going == 0 || east_going == walking), "a path too narrow for two is walked one way");
+    traffic_destroy(traffic);
     tear_down(&roads);
 }
 
@@ -198,5 +344,8 @@ int main(void)
 {
     test_run("a crossing", town, 4, 12, 24);
     test_run("a beach", beach, 4, 12, 12);
+    test_seeds();
+    test_refused();
+    test_lanes();
     return tap_done();
 }
