@@ -65,12 +65,16 @@ gen_libgen_a_SOURCES = \
   %D%/trace/shape.c %D%/trace/shape.h \
   %D%/trace/share.c %D%/trace/share.h \
   %D%/trace/trace.c %D%/trace/trace.h \
+  %D%/world/banded.c %D%/world/banded.h \
   %D%/world/entity.c %D%/world/entity.h \
   %D%/world/ground.c %D%/world/ground.h \
   %D%/world/osm.c %D%/world/osm.h \
   %D%/world/path.c %D%/world/path.h \
   %D%/world/prism.c %D%/world/prism.h \
   %D%/world/receiver.c %D%/world/receiver.h \
+  %D%/world/ribbon.c %D%/world/ribbon.h \
+  %D%/world/ribbon_fit.c \
+  %D%/world/ribbon_lay.c \
   %D%/world/road.c %D%/world/road.h \
   %D%/world/road_tags.c %D%/world/road_tags.h \
   %D%/world/static_color.c \
@@ -80,7 +84,9 @@ gen_libgen_a_SOURCES = \
   %D%/world/static_mesh_obj.c \
   %D%/world/static_mesh_ply.c \
   %D%/world/static_mesh_rays.c \
-  %D%/world/static_mesh_write.c
+  %D%/world/static_mesh_write.c \
+  %D%/world/strip.c %D%/world/strip.h \
+  %D%/world/surface.c %D%/world/surface.h
 GEN_LIBS = gen/libgen.a $(LIB_LIBS) $(TINYGLTF_LIBS) $(ASSIMP_LIBS) $(EMBREE_LIBS) $(ERFA_LIBS) $(YAML_LIBS) $(READOSM_LIBS)
 
 

@@ -57,10 +57,20 @@ tests_lib_place_test_SOURCES = %D%/lib/place.c %D%/tap.h
 nodist_EXTRA_tests_lib_place_test_SOURCES = dummy.cxx
 tests_lib_place_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/ribbon.test
+tests_gen_ribbon_test_SOURCES = %D%/gen/ribbon.c %D%/tap.h
+nodist_EXTRA_tests_gen_ribbon_test_SOURCES = dummy.cxx
+tests_gen_ribbon_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/road.test
 tests_gen_road_test_SOURCES = %D%/gen/road.c %D%/tap.h
 nodist_EXTRA_tests_gen_road_test_SOURCES = dummy.cxx
 tests_gen_road_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/surface.test
+tests_gen_surface_test_SOURCES = %D%/gen/surface.c %D%/tap.h
+nodist_EXTRA_tests_gen_surface_test_SOURCES = dummy.cxx
+tests_gen_surface_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/sun.test
 tests_gen_sun_test_SOURCES = %D%/gen/sun.c %D%/tap.h
