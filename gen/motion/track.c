@@ -8,6 +8,7 @@
 #define JOIN_M 2.0            /* a lane goes on in one that begins this near, */
 #define JOIN_RAD 0.7          /* and turns by no more */
 #define SHORTEST_M 1.0
+#define ABREAST_M 0.1         /* between lanes of people that are one */
 
 /* A lane on the way to a track: places in the order of driving, and the law's speed at each. */
 struct strand {
@@ -161,6 +162,23 @@ static bool track_from_strand(struct track *track, const struct strand *strand, 
     return true;
 }
 
+/* The lane k of a way, and with it those beside it when people walk there: they see to both directions
+ * themselves. Returns how many lanes it is. */
+static size_t lanes_abreast(struct lane *joined, const struct way *way, size_t k)
+{
+    size_t n = 1;
+    *joined = way->lanes[k];
+    for (; joined->use == ROAD_PEOPLE && k + n < way->lane_count; n++) {
+        const struct lane *next = &way->lanes[k + n];
+        double left = joined->offset_m + joined->width_m / 2, right = joined->offset_m - joined->width_m / 2;
+        if (next->use != ROAD_PEOPLE || fabs(next->offset_m + next->width_m / 2 - right) > ABREAST_M) break;
+        right = next->offset_m - next->width_m / 2;
+        joined->offset_m = (left + right) / 2;
+        joined->width_m = left - right;
+    }
+    return n;
+}
+
 bool tracks_create(struct track **tracks, size_t *count, const struct road_network *roads, double lateral_m_s2,
                    double braking_m_s2, struct error *err)
 {
@@ -170,9 +188,11 @@ bool tracks_create(struct track **tracks, size_t *count, const struct road_netwo
     struct track *new = calloc(lanes + 1, sizeof *new);
     bool good = false, memory = strands && new;
     for (size_t i = 0; memory && i < roads->way_count; i++)
-        for (size_t k = 0; memory && k < roads->ways[i].lane_count; k++) {
+        for (size_t k = 0; memory && k < roads->ways[i].lane_count;) {
+            struct lane lane;
+            k += lanes_abreast(&lane, &roads->ways[i], k);
             if (path_length(&roads->ways[i].path) < SHORTEST_M) continue;
-            memory = strand_from_lane(&strands[strand_count], &roads->ways[i], &roads->ways[i].lanes[k]);
+            memory = strand_from_lane(&strands[strand_count], &roads->ways[i], &lane);
             strand_count += memory;
         }
     if (!memory || !strands_join(strands, &strand_count)) {

@@ -1,7 +1,8 @@
 /* Who drives and walks where, at any moment: a scenario made by a seed.
  *
  * Vehicles follow the lanes of the network at a set speed, slow down in bends, keep their distance
- * (intelligent driver model); people walk along footways and sidewalks in both directions and out of step. Who leaves at the end of a lane
+ * (intelligent driver model); people walk along footways and sidewalks in both directions and out of step. Where
+ * lanes come too near each other, who comes first goes first. Who leaves at the end of a lane
  * is followed by a new one elsewhere, so that `count` are about at any time. It is computed once, in
  * small steps, and read at any time: the same for any order of frames. */
 #ifndef STAFFAGE_GEN_TRAFFIC_H

@@ -173,7 +173,7 @@ static const struct plan beach[] = {
     { ROAD_VEHICLES, street, 8, { 1.5, -1.5 }, 3, { true, false }, 2, 0 },
     { ROAD_PEOPLE, street, 8, { 3.9, -3.9 }, 1.8, { false, false }, 2, 0 },
     { ROAD_VEHICLES, service, 10, { 1.25, -1.25 }, 2.5, { true, false }, 2, 5 },
-    { ROAD_PEOPLE, path, 4, { 0 }, 2, { false }, 1, 0 },
+    { ROAD_PEOPLE, path, 4, { 0.5, -0.5 }, 1, { true, false }, 2, 0 },
 };
 
 static void test_run(const char *name, const struct plan *plans, size_t n, size_t vehicles, size_t people)
