@@ -127,6 +127,7 @@ void make_person(struct model *model, struct skeleton *skeleton, enum build buil
     struct flesh skin = { .blend_m = 0.03, .cell_m = 0.02, .material = SKIN, .part = HEAD_PART };
     struct flesh hair = { .blend_m = 0.04, .folds_m = 0.002, .cell_m = 0.025, .material = HAIR, .part = HEAD_PART };
     double limb = frame->limb, hip_z = stance == WALKING ? 0.92 : 0.94;
+    bool ready = stance == READY;
     size_t first = model->count;
 
     for (int side = 0; side < 2; side++) {
@@ -141,17 +142,17 @@ void make_person(struct model *model, struct skeleton *skeleton, enum build buil
         struct flesh shoe = { .blend_m = 0.03, .cell_m = 0.025, .material = SHOES, .part = SHOE };
         struct vec3 heel = vec3_add(ankle, vec3(-0.04, 0, -0.045)), toe = vec3_add(ankle, vec3(0.155, y * 0.03, -0.05));
         toe.z -= joint->toe_drop_m[side];
-        if (stance == READY) shoe.hem_z = 0.008; /* a flat sole, to be rolled over */
+        if (ready) shoe.hem_z = 0.008; /* a flat sole, to be rolled over */
         add_bone(&shoe, heel, 0.043, toe, 0.036, 1);
         add_bone(&shoe, heel, 0.043, ankle, 0.045, 1);
         add_flesh(model, &shoe);
 
         struct vec3 trunk[4] = { { -0.005, y * 0.065, frame->hem_z - 0.06 }, { 0, y * 0.048, 1.12 }, { 0, y * 0.07, 1.30 },
-                                 { -0.01, y * frame->shoulder_y * 0.7, 1.415 } };
+                                 { -0.01, y * frame->shoulder_y * (ready ? 0.88 : 0.7), ready ? 1.40 : 1.415 } };
         for (int k = 0; k < 3; k++) add_bone(&jacket, trunk[k], frame->girth[k], trunk[k + 1], frame->girth[k + 1], 1);
 
         struct flesh sleeve = { .blend_m = 0.03, .folds_m = 0.004, .cell_m = 0.03, .material = JACKET, .part = ARM };
-        struct vec3 shoulder = vec3(-0.01, y * frame->shoulder_y, 1.40), elbow = AT(joint->elbow[side]);
+        struct vec3 shoulder = vec3(-0.01, y * frame->shoulder_y, ready ? 1.385 : 1.40), elbow = AT(joint->elbow[side]);
         struct vec3 wrist = AT(joint->wrist[side]), hand = vec3_unit(vec3_sub(wrist, elbow));
         add_bone(&sleeve, shoulder, 0.066 * limb, elbow, 0.053 * limb, 1);
         add_bone(&sleeve, elbow, 0.053 * limb, wrist, 0.043 * limb, 1);
