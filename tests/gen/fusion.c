@@ -327,6 +327,39 @@ static void reading(void)
     image_release(&image);
 }
 
+/* --- the program --- */
+
+/* A shot right above two triangles, one road, one grass. */
+static void program(const char *build)
+{
+    static const char scene[] = "staffage: 1\ncameras:\n  drone: {model: PINHOLE, size_px: [80, 40], params: [100, 100, 40, 20]}\n"
+        "shots:\n  - {photograph: two.png, camera: drone, pose: {matrix: [[1, 0, 0, 0], [0, -1, 0, 0], [0, 0, -1, 10]]}, semantic: two.png}\n"
+        "static: {mesh: two.obj, world_from_mesh: {scale: 2}}\nlight: {sky: overcast}\nexposure: {value: 1}\nlabels: {palette: uavid}\n";
+    static const char obj[] = "v -2 -1 0\nv 0 -1 0\nv 0 1 0\nv -2 1 0\nv 2 -1 0\nv 2 1 0\nf 1 2 3 4\nf 2 5 6 3\n";
+    char path[128], command[512];
+    struct image image;
+    struct error err = ERROR_NONE;
+    image_init(&image, 40, 20, 3, PIXEL_U8, &err); /* half as large as the camera is */
+    for (int y = 0; y < 20; y++)
+        for (int x = 0; x < 40; x++) memcpy(image_u8(&image, x, y), x < 20 ? (uint8_t[]){ 128, 64, 128 } : (uint8_t[]){ 128, 128, 0 }, 3);
+    snprintf(path, sizeof path, "%s/two.png", folder);
+    image_write(path, &image, &err);
+    image_release(&image);
+    snprintf(path, sizeof path, "%s/two.obj", folder);
+    file_write(path, obj, sizeof obj - 1, &err);
+    snprintf(path, sizeof path, "%s/scene.yaml", folder);
+    file_write(path, scene, sizeof scene - 1, &err);
+    snprintf(command, sizeof command, "'%s/staffage-fuse' %s/scene.yaml -o %s/two.ply", build, folder, folder);
+    fflush(stdout);
+    bool ok = system(command) == 0;
+    snprintf(path, sizeof path, "%s/two.ply", folder);
+    struct static_mesh *mesh = ok ? load(path) : NULL;
+    OK(mesh && static_mesh_label(mesh, 0) == ROAD && static_mesh_label(mesh, 1) == ROAD && static_mesh_label(mesh, 2) == GRASS && static_mesh_label(mesh, 3) == GRASS,
+       "staffage-fuse puts the image of a shot onto the scene's mesh");
+    NEAR(mesh ? static_mesh_vertex(mesh, 5).x : 0, 4, 1e-6, "and writes it in world metres");
+    static_mesh_destroy(mesh);
+}
+
 int main(void)
 {
     snprintf(folder, sizeof folder, "fusion-test.XXXXXX");
@@ -341,6 +374,7 @@ int main(void)
     static_mesh_destroy(mesh);
     deciding();
     reading();
+    program(getenv("top_builddir") ? getenv("top_builddir") : ".");
     char command[128];
     snprintf(command, sizeof command, "rm -r %s", folder);
     return system(command) || tap_done();
