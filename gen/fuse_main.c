@@ -89,7 +89,7 @@ static bool fuse(const struct options *o, struct error *err)
     color_faces(color, label, faces, scene->palette);
     ok = static_mesh_write(o->out, mesh, label, (const uint8_t (*)[3])color, err);
     if (ok)
-        printf("staffage: %zu images fused: %.1f %% of %zu faces by votes, %.1f %% filled in, %.1f %% unknown\n", images,
+        printf("staffage: %zu image%s fused: %.1f %% of %zu faces by votes, %.1f %% filled in, %.1f %% unknown\n", images, images == 1 ? "" : "s",
                100.0 * (double)counts.voted / (double)faces, faces, 100.0 * (double)counts.filled / (double)faces,
                100.0 * (double)counts.unknown / (double)faces);
 out:
