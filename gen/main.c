@@ -63,7 +63,8 @@ static bool generate(const struct options *o, struct error *err)
     struct generator *generator = NULL;
     struct frame_result *results = NULL;
     struct makefile_frame *entries = NULL;
-    size_t *chosen = NULL, n = 0, kept = 0, made = 0;
+    size_t *chosen = NULL, n = 0, kept = 0, made = 0, failed = 0;
+    struct error first = ERROR_NONE;
     char *templates = string_format("%s/templates", data_folder());
     char *rules = string_format("%s/templates/materials.rules", data_folder());
     bool ok = false;
@@ -94,22 +95,35 @@ static bool generate(const struct options *o, struct error *err)
     }
     if (!generator_prepare(generator, chosen, n, err)) goto out;
     struct pass_settings settings = pass_settings(scene->quality, scene->sky);
+    size_t done = 0;
     for (size_t i = 0; i < n; i++) {
-        if (!generator_frame(&results[i], generator, chosen[i], err)) goto out;
-        *(results[i].kept ? &kept : &made) += 1;
-        entries[i] = (struct makefile_frame){ .name = results[i].name, .empty = results[i].empty };
-        if (results[i].empty) continue;
-        struct view whole = results[i].view, reduced = view_reduced(&whole, results[i].receiver_reduction);
-        entries[i] = (struct makefile_frame){
-            .name = results[i].name,
+        struct frame_result *result = &results[done];
+        struct error wrong = ERROR_NONE;
+        if (!generator_frame(result, generator, chosen[i], &wrong)) {
+            /* One bad photograph is no reason to leave the others. */
+            if (failed++) error_print(&wrong, "staffage-gen");
+            else first = wrong;
+            continue;
+        }
+        *(result->kept ? &kept : &made) += 1;
+        entries[done++] = (struct makefile_frame){ .name = result->name, .empty = result->empty };
+        if (result->empty) continue;
+        struct view whole = result->view, reduced = view_reduced(&whole, result->receiver_reduction);
+        entries[done - 1] = (struct makefile_frame){
+            .name = result->name,
             .width_px = { whole.width_px, reduced.width_px, reduced.width_px },
             .height_px = { whole.height_px, reduced.height_px, reduced.height_px },
             .options = { settings.object_antialias, settings.receiver_antialias, settings.receiver_antialias },
         };
     }
-    ok = generator_write_run(generator, results, n, err) &&
-         makefile_write(o->out, templates, entries, n, err);
-    if (ok) printf("staffage: generated %zu frame%s, %zu unchanged\n", made, made == 1 ? "" : "s", kept);
+    ok = done == 0 || (generator_write_run(generator, results, done, err) &&
+                       makefile_write(o->out, templates, entries, done, err));
+    if (ok && done) printf("staffage: generated %zu frame%s, %zu unchanged\n", made, made == 1 ? "" : "s", kept);
+    if (ok && failed) {
+        if (n > 1) fprintf(stderr, "staffage-gen: %zu of %zu frames could not be generated\n", failed, n);
+        *err = first;
+        ok = false;
+    }
 out:
     free(chosen);
     free(entries);
