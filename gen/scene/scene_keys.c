@@ -75,8 +75,7 @@ const char *class_choice_name(int i)
     { at ".count", TYPE_INTEGER, .presence = REQUIRED, LIMITS(1, 5000) },                             \
     { at ".models", TYPE_NAMED, .presence = REQUIRED },                                               \
     { at ".models.NAME.weight", TYPE_NUMBER, .preset = "1", ABOVE(0, INFINITY) },                     \
-    { at ".speed_m_s", TYPE_NUMBER, "m/s", .preset = speed, ABOVE(0, 100) },                          \
-    { at ".colors", TYPE_COLORS, .preset = "[]" }
+    { at ".speed_m_s", TYPE_NUMBER, "m/s", .preset = speed, ABOVE(0, 100) }
 
 static const struct schema_key keys[] = {
     { "staffage", TYPE_INTEGER, .presence = REQUIRED, LIMITS(1, INFINITY) },
@@ -187,6 +186,7 @@ static const struct schema_key keys[] = {
 
     { "traffic", TYPE_MAPPING, SECTION },
     MOVERS("traffic.vehicles", "8"),
+    { "traffic.vehicles.colors", TYPE_COLORS, .preset = "[]" },
     MOVERS("traffic.people", "1.4"),
 
     { "weather", TYPE_MAPPING, .presence = OPTIONAL },

@@ -63,6 +63,7 @@ static bool read_movers(const struct reading *r, struct scene_movers *movers, co
 {
     if (!node) return true;
     const struct yaml_node *models = yaml_get(node, "models"), *colors = yaml_get(node, "colors");
+    size_t color_count = colors ? colors->count : 0;
     int count;
     movers->source = source_of(node);
     yaml_integer(&count, yaml_get(node, "count"));
@@ -71,11 +72,11 @@ static bool read_movers(const struct reading *r, struct scene_movers *movers, co
     if (!models->count) return FAIL(r, models, "%s.models: names none", who);
     movers->models = calloc(models->count, sizeof *movers->models);
     movers->weights = calloc(models->count, sizeof *movers->weights);
-    movers->colors = calloc(colors->count + 1, sizeof *movers->colors);
+    movers->colors = calloc(color_count + 1, sizeof *movers->colors);
     if (!movers->models || !movers->weights || !movers->colors) return out_of_memory(r);
     movers->model_count = models->count;
-    movers->color_count = colors->count;
-    for (size_t i = 0; i < colors->count; i++) schema_color(movers->colors[i], colors->items[i]);
+    movers->color_count = color_count;
+    for (size_t i = 0; i < color_count; i++) schema_color(movers->colors[i], colors->items[i]);
     for (size_t i = 0; i < models->count; i++) {
         const struct yaml_node key = { .kind = YAML_SCALAR, .text = models->keys[i].text, .line = models->keys[i].line,
                                        .column = models->keys[i].column };
