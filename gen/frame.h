@@ -23,6 +23,7 @@ struct frame_context {
     const struct light *light;
     const char *sky_map;        /* relative to out_folder */
     struct tracer *tracer;
+    struct include_set *includes; /* of the run */
 };
 
 /* One frame as it stands after generating: what the makefile is written from. */

@@ -25,6 +25,7 @@ struct generator {
     uint64_t video_hash;            /* names the video as it is now: another one's pictures are not taken for its own */
     int video_width_px, video_height_px;
     struct tracer *tracer;
+    struct include_set includes;
     uint64_t input_hash;            /* of all that every frame depends on */
 };
 
@@ -106,6 +107,7 @@ void generator_destroy(struct generator *g)
 {
     if (!g) return;
     tracer_destroy(g->tracer);
+    include_set_release(&g->includes);
     stage_destroy(g->stage);
     light_release(&g->light);
     material_rules_destroy(g->rules);
@@ -242,7 +244,7 @@ static bool already_there(struct frame_result *result, const char *manifest_path
 bool generator_frame(struct frame_result *result, struct generator *g, size_t frame, struct error *err)
 {
     const struct scene_shot *shot = &g->scene->shots[frame];
-    struct frame_context context = { g->scene, g->out_folder, g->stage, &g->light, g->sky_map, g->tracer };
+    struct frame_context context = { g->scene, g->out_folder, g->stage, &g->light, g->sky_map, g->tracer, &g->includes };
     struct frame_result made = { 0 };
     struct camera camera;
     generator_frame_name(made.name, g, frame);

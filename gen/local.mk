@@ -27,6 +27,7 @@ gen_libgen_a_SOURCES = \
   %D%/model/texture.c %D%/model/texture.h \
   %D%/motion/crossing.c %D%/motion/crossing.h \
   %D%/motion/crowd.c %D%/motion/crowd.h \
+  %D%/moment.c %D%/moment.h \
   %D%/motion/draw.c %D%/motion/draw.h \
   %D%/motion/drive.c \
   %D%/motion/gait.c %D%/motion/gait.h \
@@ -36,7 +37,9 @@ gen_libgen_a_SOURCES = \
   %D%/motion/walk.c \
   %D%/render/camera_sdl.c %D%/render/camera_sdl.h \
   %D%/render/makefile.c %D%/render/makefile.h \
+  %D%/render/model_sdl.c %D%/render/model_sdl.h \
   %D%/render/passes.c %D%/render/passes.h \
+  %D%/render/place_sdl.c %D%/render/place_sdl.h \
   %D%/render/sdl.c %D%/render/sdl.h \
   %D%/scene/nearest.c %D%/scene/nearest.h \
   %D%/scene/scene.c %D%/scene/scene.h \
@@ -53,11 +56,13 @@ gen_libgen_a_SOURCES = \
   %D%/stage.c %D%/stage.h \
   %D%/trace/backdrop.c %D%/trace/backdrop.h \
   %D%/trace/cast.c %D%/trace/cast.h \
+  %D%/sunlit.c %D%/sunlit.h \
   %D%/trace/footprint.c %D%/trace/footprint.h \
   %D%/trace/fusion.c %D%/trace/fusion.h \
   %D%/trace/label.c %D%/trace/label.h \
   %D%/trace/motion.c %D%/trace/motion.h \
   %D%/trace/place.c %D%/trace/place.h \
+  %D%/trace/plane_depth.c %D%/trace/plane_depth.h \
   %D%/trace/polygon.c %D%/trace/polygon.h \
   %D%/trace/rays.c %D%/trace/rays.h \
   %D%/trace/screen.c %D%/trace/screen.h \
@@ -86,7 +91,8 @@ gen_libgen_a_SOURCES = \
   %D%/world/static_mesh_rays.c \
   %D%/world/static_mesh_write.c \
   %D%/world/strip.c %D%/world/strip.h \
-  %D%/world/surface.c %D%/world/surface.h
+  %D%/world/surface.c %D%/world/surface.h \
+  %D%/world/surroundings.c %D%/world/surroundings.h
 GEN_LIBS = gen/libgen.a $(LIB_LIBS) $(TINYGLTF_LIBS) $(ASSIMP_LIBS) $(EMBREE_LIBS) $(ERFA_LIBS) $(YAML_LIBS) $(READOSM_LIBS)
 
 

@@ -1,5 +1,7 @@
 #include "gen/stage.h"
 
+#include "gen/moment.h"
+#include "gen/scene/nearest.h"
 #include "gen/world/ground.h"
 #include "lib/file.h"
 #include "lib/place.h"
@@ -79,6 +81,7 @@ static bool load_model(struct stage *stage, size_t index, const struct material_
     }
     if (!model_load(&stage->models[index], named->file, &options, err)) return false;
     struct model *model = stage->models[index];
+    if (model->rig && !gait_create(&stage->gaits[index], model, err)) return false;
     for (size_t k = 0; k < model->missing_texture_count; k++)
         if (!warn(stage, named->file, model->missing_textures[k], err)) return false;
     stage->hash = hash_model(stage->hash, model);
@@ -90,6 +93,10 @@ static bool load_models(struct stage *stage, const struct material_rules *rules,
     const struct scene *s = stage->scene;
     for (size_t i = 0; i < s->entity_count; i++)
         if (!load_model(stage, s->entities[i].model_index, rules, s->entities[i].class_, err)) return false;
+    const struct scene_movers *const movers[] = { &s->vehicles, &s->people };
+    for (int k = 0; k < 2; k++)
+        for (size_t i = 0; i < movers[k]->model_count; i++)
+            if (!load_model(stage, movers[k]->models[i], rules, s->models[movers[k]->models[i]].class_, err)) return false;
     return true;
 }
 
@@ -112,8 +119,15 @@ static bool world_from_pixel(struct vec2 *p, const struct stage *stage, struct v
 {
     const struct scene_shot *from = &stage->scene->shots[shot];
     const struct camera *camera = &stage->scene->cameras[from->camera].camera;
-    struct vec3 at;
-    if (!ground_from_pixel(&at, &stage->scene->ground, camera, from->world_from_camera, q_px, err)) return false;
+    struct vec3 at, ray;
+    if (!stage->mesh) {
+        if (!ground_from_pixel(&at, &stage->scene->ground, camera, from->world_from_camera, q_px, err)) return false;
+    } else {
+        if (!camera_unproject(camera, &ray, q_px, err)) return false;
+        if (!surface_intersect(&stage->surface, &at, from->world_from_camera.translation,
+                               mat3_apply(from->world_from_camera.rotation, ray)))
+            return error_set(err, ERR_INPUT, "pixel (%.6g, %.6g) does not see the static mesh", q_px.x, q_px.y);
+    }
     *p = (struct vec2){ at.x, at.y };
     return true;
 }
@@ -130,14 +144,22 @@ static bool find_place(struct vec2 *p, const struct stage *stage, enum place_kin
     }
 }
 
-static struct entity scene_entity(const struct stage *stage, size_t i)
+static bool find_course(struct stage *stage, size_t entity, struct error *err)
 {
-    const struct scene_entity *e = &stage->scene->entities[i];
-    return (struct entity){
-        .id = (uint16_t)(i + 1), .name = e->name, .model_name = e->model, .class_ = e->class_,
-        .model = stage->models[e->model_index], .has_color = e->has_color,
-        .color = { e->color[0], e->color[1], e->color[2] },
-    };
+    const struct scene_entity *e = &stage->scene->entities[entity];
+    struct nearest nearest = { NULL, 0 };
+    for (size_t i = 0; i < stage->roads.way_count; i++) {
+        const struct way *way = &stage->roads.ways[i];
+        if (!strcmp(way->name, e->path)) {
+            stage->courses[entity] = way;
+            return true;
+        }
+        nearest_offer(&nearest, e->path, way->name);
+    }
+    error_set(err, ERR_INPUT, "entity \"%s\": unknown path \"%.80s\"%s%s%s", e->name, e->path,
+              nearest.name ? " (did you mean \"" : " (it must be the name of a path or road)", nearest.name ? nearest.name : "",
+              nearest.name ? "\"?)" : "");
+    return stage_fail(stage->scene, e->at_source, err);
 }
 
 static bool place_entities(struct stage *stage, struct error *err)
@@ -146,20 +168,129 @@ static bool place_entities(struct stage *stage, struct error *err)
     for (size_t i = 0; i < s->entity_count; i++) {
         const struct scene_entity *e = &s->entities[i];
         struct vec2 p;
-        if (!find_place(&p, stage, e->place, e->at, e->shot, err)) {
+        if (e->path) {
+            if (!find_course(stage, i, err)) return false;
+        } else if (find_place(&p, stage, e->place, e->at, e->shot, err)) {
+            stage->stand_m[i] = p;
+        } else {
             stage_fail(s, e->at_source, err);
             return error_prefix(err, "entity \"%s\": ", e->name);
         }
-        stage->stand_m[i] = vec3(p.x, p.y, 0);
     }
     return true;
 }
 
-static bool stand(struct entity *entity, const struct stage *stage, struct vec2 p, double heading_rad, struct error *err)
+/* --- the place --- */
+
+static bool add_paths(struct stage *stage, const struct road_rules *rules, struct error *err)
 {
-    (void)err;
-    entity->world_from_entity = entity_stand(&stage->scene->ground, vec3(p.x, p.y, 0), heading_rad);
+    const struct scene *s = stage->scene;
+    for (size_t i = 0; i < s->path_count; i++) {
+        const struct scene_path *path = &s->paths[i];
+        struct vec2 *points = calloc(path->n, sizeof *points);
+        bool ok = points || out_of_memory(err);
+        for (size_t k = 0; ok && k < path->n; k++)
+            ok = find_place(&points[k], stage, path->place, (double[]){ path->points[k].x, path->points[k].y }, path->shot, err);
+        ok = ok && roads_add(&stage->roads, path->name, path->use, points, path->n, path->width_m, path->oneway, rules, err);
+        free(points);
+        if (!ok) {
+            stage_fail(s, path->source, err);
+            return error_prefix(err, "path \"%s\": ", path->name);
+        }
+    }
     return true;
+}
+
+/* Pixels of photographs are found on the mesh as it is, before roads are laid into it. */
+static bool load_roads(struct stage *stage, struct error *err)
+{
+    const struct scene *s = stage->scene;
+    struct road_rules rules = { s->driving_side, s->sidewalk_m, s->place, s->north_rad };
+    struct vec2 keep[2] = { { -INFINITY, -INFINITY }, { INFINITY, INFINITY } };
+    if (stage->mesh) {
+        struct vec3 min_m, max_m;
+        static_mesh_bounds(stage->mesh, &min_m, &max_m);
+        keep[0] = (struct vec2){ min_m.x, min_m.y };
+        keep[1] = (struct vec2){ max_m.x, max_m.y };
+    }
+    return (!s->osm || (roads_read_osm(&stage->roads, s->osm, &rules, keep, err) && file_hash(&stage->hash, s->osm, err))) &&
+           add_paths(stage, &rules, err);
+}
+
+static bool load_mesh(struct stage *stage, struct error *err)
+{
+    const struct scene_static *from = &stage->scene->static_;
+    bool by_pixel = false;
+    for (size_t i = 0; i < stage->scene->path_count; i++) by_pixel = by_pixel || stage->scene->paths[i].place == PLACE_PIXEL;
+    if (!static_mesh_load(&stage->mesh, from->mesh, from->world_from_mesh, err)) return false;
+    stage->surface = (struct surface){ .has_mesh = true, .mesh = stage->mesh };
+    uint64_t hash = static_mesh_hash(stage->mesh);
+    stage->hash = hash_bytes(stage->hash, &hash, sizeof hash);
+    return !by_pixel || static_mesh_index(stage->mesh, from->detail_m, err);
+}
+
+/* A smooth road along every way that lies over the mesh. */
+static bool smooth_roads(struct stage *stage, struct error *err)
+{
+    stage->ribbons = calloc(stage->roads.way_count + 1, sizeof *stage->ribbons);
+    if (!stage->ribbons) return out_of_memory(err);
+    for (size_t i = 0; i < stage->roads.way_count; i++) {
+        struct ribbon *ribbon = &stage->ribbons[stage->ribbon_count];
+        if (!ribbon_fit(ribbon, &stage->roads.ways[i], stage->mesh, err))
+            return error_prefix(err, "road \"%s\": ", stage->roads.ways[i].name);
+        stage->ribbon_count++;
+    }
+    if (!ribbons_lay(stage->mesh, stage->ribbons, stage->ribbon_count, err)) return false;
+    stage->surface.ribbons = stage->ribbons;
+    stage->surface.ribbon_count = stage->ribbon_count;
+    return static_mesh_index(stage->mesh, stage->scene->static_.detail_m, err);
+}
+
+static bool load_place(struct stage *stage, struct error *err)
+{
+    stage->surface = (struct surface){ .plane = stage->scene->ground };
+    if (!stage->scene->static_.mesh) return load_roads(stage, err);
+    return load_mesh(stage, err) && load_roads(stage, err) && smooth_roads(stage, err);
+}
+
+/* --- traffic --- */
+
+static bool list_kinds(struct mover_kind **kinds, const struct stage *stage, const struct scene_movers *movers, struct error *err)
+{
+    *kinds = calloc(movers->model_count + 1, sizeof **kinds);
+    if (!*kinds) return out_of_memory(err);
+    for (size_t i = 0; i < movers->model_count; i++) {
+        const struct model *model = stage->models[movers->models[i]];
+        (*kinds)[i] = (struct mover_kind){ movers->models[i], movers->weights[i], model->max_m.x - model->min_m.x,
+                                           model->max_m.y - model->min_m.y };
+    }
+    return true;
+}
+
+static bool start_traffic(struct stage *stage, struct error *err)
+{
+    const struct scene *s = stage->scene;
+    struct mover_kind *vehicles = NULL, *people = NULL;
+    double begin = INFINITY, end = -INFINITY;
+    if (!s->vehicles.count && !s->people.count) return true;
+    for (size_t i = 0; i < s->shot_count; i++) {
+        begin = fmin(begin, s->shots[i].time_s);
+        end = fmax(end, s->shots[i].time_s + s->exposure_s);
+    }
+    bool ok = list_kinds(&vehicles, stage, &s->vehicles, err) && list_kinds(&people, stage, &s->people, err);
+    if (ok) {
+        struct traffic_options options = {
+            .vehicles = vehicles, .people = people, .vehicle_kinds = s->vehicles.model_count, .people_kinds = s->people.model_count,
+            .vehicle_count = s->vehicles.count, .people_count = s->people.count,
+            .vehicle_speed_m_s = s->vehicles.speed_m_s, .people_speed_m_s = s->people.speed_m_s, .lateral_m_s2 = 2,
+            .color_count = s->vehicles.color_count, .first_id = (uint16_t)(s->entity_count + 1), .seed = (uint64_t)s->seed,
+        };
+        ok = traffic_create(&stage->traffic, &stage->roads, &options, begin, end, err) ||
+             stage_fail(s, s->vehicles.count ? s->vehicles.source : s->people.source, err);
+    }
+    free(vehicles);
+    free(people);
+    return ok;
 }
 
 /* Those that stand run into none of each other. */
@@ -167,7 +298,7 @@ static bool check_overlaps(const struct stage *stage, struct error *err)
 {
     const struct scene *s = stage->scene;
     struct moment moment;
-    if (!stage_at(&moment, stage, 0, err)) return false;
+    if (!moment_at(&moment, stage, 0, err)) return false;
     for (size_t i = 0; i < s->entity_count; i++)
         for (size_t k = 0; k < i; k++)
             if (!s->entities[i].path && !s->entities[k].path &&
@@ -192,7 +323,9 @@ bool stage_create(struct stage **out, const struct scene *scene, const struct ma
         out_of_memory(err);
         goto failed;
     }
-    if (!load_models(stage, rules, err) || !place_entities(stage, err) || !check_overlaps(stage, err)) goto failed;
+    if (!load_models(stage, rules, err) || !load_place(stage, err) || !place_entities(stage, err) ||
+        !start_traffic(stage, err) || !check_overlaps(stage, err))
+        goto failed;
     *out = stage;
     return true;
 failed:
@@ -203,6 +336,12 @@ failed:
 void stage_destroy(struct stage *stage)
 {
     if (!stage) return;
+    traffic_destroy(stage->traffic);
+    for (size_t i = 0; i < stage->ribbon_count; i++) ribbon_release(&stage->ribbons[i]);
+    free(stage->ribbons);
+    roads_release(&stage->roads);
+    static_mesh_destroy(stage->mesh);
+    for (size_t i = 0; stage->gaits && i < stage->scene->model_count; i++) gait_release(&stage->gaits[i]);
     for (size_t i = 0; stage->models && i < stage->scene->model_count; i++) model_destroy(stage->models[i]);
     for (size_t i = 0; i < stage->warning_count; i++) free(stage->warnings[i]);
     free(stage->warnings);
@@ -211,42 +350,4 @@ void stage_destroy(struct stage *stage)
     free(stage->stand_m);
     free(stage->courses);
     free(stage);
-}
-
-/* --- a moment --- */
-
-bool stage_at(struct moment *out, const struct stage *stage, double time_s, struct error *err)
-{
-    const struct scene *s = stage->scene;
-    struct moment moment = { 0 };
-    size_t most = s->entity_count;
-    (void)time_s;
-    moment.entities = calloc(most + 1, sizeof *moment.entities);
-    moment.model_index = calloc(most + 1, sizeof *moment.model_index);
-    moment.velocity_m_s = calloc(most + 1, sizeof *moment.velocity_m_s);
-    if (!moment.entities || !moment.model_index || !moment.velocity_m_s) {
-        out_of_memory(err);
-        goto failed;
-    }
-    for (size_t i = 0; i < s->entity_count; i++) {
-        moment.entities[i] = scene_entity(stage, i);
-        moment.model_index[i] = s->entities[i].model_index;
-        struct vec2 p = { stage->stand_m[i].x, stage->stand_m[i].y };
-        if (!stand(&moment.entities[i], stage, p, s->entities[i].heading_rad, err)) goto failed;
-        moment.n++;
-    }
-    *out = moment;
-    return true;
-failed:
-    moment_release(&moment);
-    return false;
-}
-
-void moment_release(struct moment *moment)
-{
-    free(moment->entities);
-    free(moment->model_index);
-    free(moment->velocity_m_s);
-    free(moment->names);
-    *moment = (struct moment){ 0 };
 }

@@ -1,4 +1,4 @@
-/* The stage: what of a scene does not depend on a camera, loaded once, and who is on it at a moment. */
+/* The stage: what of a scene does not depend on a camera, loaded once. */
 #ifndef STAFFAGE_GEN_STAGE_H
 #define STAFFAGE_GEN_STAGE_H
 
@@ -29,7 +29,7 @@ struct stage {
     size_t ribbon_count;
     struct surface surface;
     struct traffic *traffic;     /* NULL: none */
-    struct vec3 *stand_m;        /* (scene->entity_count) where those stand that follow no path */
+    struct vec2 *stand_m;        /* (scene->entity_count) where those stand that follow no path */
     const struct way **courses;  /* (scene->entity_count) what the others follow */
     char **warnings;
     size_t warning_count;
@@ -40,23 +40,6 @@ struct stage {
  * Err: ERR_INPUT at the user's file and line */
 bool stage_create(struct stage **stage, const struct scene *scene, const struct material_rules *rules, struct error *err);
 void stage_destroy(struct stage *stage);
-
-#define MOVER_NAME_SIZE 24
-struct moment {
-    struct entity *entities;     /* (n) those of the scene first, then the traffic, by id */
-    size_t *model_index;         /* (n) into scene->models */
-    struct vec3 *velocity_m_s;   /* (n) world */
-    size_t n;
-    struct model *posed;         /* (posed_count) rigged models as they are at this moment */
-    size_t posed_count;
-    char (*names)[MOVER_NAME_SIZE]; /* of the traffic */
-};
-
-/* Who is on stage, and how, at a time of the scene.
- * Out: moment, initialized here; release it before the stage
- * Err: ERR_INPUT at the scene: an entity's path leaves the mesh */
-bool stage_at(struct moment *moment, const struct stage *stage, double time_s, struct error *err);
-void moment_release(struct moment *moment);
 
 /* Record an error at a place in the scene file, unless it has a place. Returns false. */
 bool stage_fail(const struct scene *scene, struct source where, struct error *err);

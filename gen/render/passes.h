@@ -1,19 +1,16 @@
-/* The scenes that POV-Ray renders: model includes, and the object, plane and shadow pass of a frame. */
+/* The scenes that POV-Ray renders: the object, plane and shadow pass of a frame. */
 #ifndef STAFFAGE_GEN_PASSES_H
 #define STAFFAGE_GEN_PASSES_H
 
 #include "gen/world/entity.h"
 #include "gen/light/light.h"
+#include "gen/render/model_sdl.h"
 #include "gen/world/receiver.h"
 #include "gen/scene/scene.h"
 #include "lib/view.h"
 
 #include <stdbool.h>
 #include <stddef.h>
-
-/* POV-Ray runs in the output folder: scenes name what they include relative to it. */
-#define MODELS_FOLDER "frames/models"
-#define TEXTURES_FOLDER "frames/textures"
 
 /* What rendering at a quality costs and gives. */
 struct pass_settings {
@@ -28,15 +25,6 @@ struct pass_settings {
 };
 struct pass_settings pass_settings(enum quality quality, enum sky_kind sky);
 
-/* The name under which an entity's model, in its colour, is declared; the include file is
- * MODELS_FOLDER/NAME.inc. */
-#define MODEL_NAME_SIZE 48
-void model_include_name(char name[MODEL_NAME_SIZE], size_t model_index, const struct entity *entity);
-
-/* Write the include file of an entity's model in its colour, and its textures.
- * Err: ERR_IO, ERR_MEMORY */
-bool model_include_write(const char *out_folder, size_t model_index, const struct entity *entity, struct error *err);
-
 /* Write the light's sky map under a name made from its content, unless it is there.
  * Out: path, relative to the output folder */
 #define SKY_MAP_SIZE 40
@@ -50,10 +38,12 @@ struct passes {
     struct view view;
     struct pose world_from_camera;
     const struct entity *entities;
-    const size_t *model_index;      /* (entity_count) */
+    const struct model_include *includes; /* (entity_count) */
     size_t entity_count;
-    const struct receiver *receivers;
+    struct plane ground;            /* what receives, on a plane; else a plane below all that is in the place's include */
+    const struct receiver *receivers; /* on a plane */
     size_t receiver_count;
+    const char *place_include;      /* of place_include_write, relative to the output folder; NULL: the ground is a plane */
 };
 
 /* Write object.pov, plane.pov and shadow.pov into frame_folder. */

@@ -73,7 +73,7 @@ static bool render(struct image pass[3], const char *out, const struct passes *p
     static const char *const names[] = { "object", "plane", "shadow" };
     struct error err = ERROR_NONE;
     char *folder = string_format("%s/frames", out);
-    bool ok = folder_make(folder, &err) && model_include_write(out, 0, &p->entities[0], &err) &&
+    bool ok = folder_make(folder, &err) && model_include_write(&p->includes[0], NULL, out, &p->entities[0], &err) &&
               passes_write(folder, p, &err);
     for (int i = 0; ok && i < 3; i++) {
         char *path = string_format("%s/%s.exr", folder, names[i]);
@@ -132,13 +132,15 @@ int main(void)
         struct light light;
         struct receiver receiver;
         struct image pass[3] = { { 0 } };
-        size_t index = 0;
+        const struct model_include include = model_include(0, &entity);
         scene.sky = round ? SKY_OVERCAST : SKY_CLEAR;
         scene.sun = round ? SUN_NONE : SUN_GIVEN;
         if (!OK(light_create(&light, &scene, &err) && sky_map_write(sky_map, out, &light, &err) &&
                 receiver_create(&receiver, &entity, &scene.ground, &light, &err), "%s: light and receivers", name))
             return tap_done();
-        struct passes p = { &scene, sky_map, &light, { 0 }, world_from_camera, &entity, &index, 1, &receiver, 1 };
+        struct passes p = { .scene = &scene, .sky_map = sky_map, .light = &light, .world_from_camera = world_from_camera,
+                            .entities = &entity, .includes = &include, .entity_count = 1, .ground = scene.ground,
+                            .receivers = &receiver, .receiver_count = 1 };
         OK(view_cover(&p.view, &camera, (struct rect){ 0, 0, 200, 150 }, &err), "%s: a view", name);
         if (!OK(render(pass, out, &p), "%s: POV-Ray renders all three passes", name)) return tap_done();
 
@@ -210,14 +212,17 @@ int main(void)
     struct light light;
     struct receiver receiver;
     struct image pass[3] = { { 0 } };
-    size_t index = 0, open = 0, wrong = 0;
+    size_t open = 0, wrong = 0;
+    const struct model_include include = model_include(0, &entity);
     scene.sky = SKY_OVERCAST;
     scene.sun = SUN_NONE;
     scene.ground.normal = vec3_unit(vec3(0.2, 0.1, 1));
     entity.world_from_entity = entity_stand(&scene.ground, vec3(0, 0, 0), 0.4);
     if (OK(light_create(&light, &scene, &err) && sky_map_write(sky_map, out, &light, &err) &&
            receiver_create(&receiver, &entity, &scene.ground, &light, &err), "a slope: light and receivers")) {
-        struct passes p = { &scene, sky_map, &light, { 0 }, world_from_camera, &entity, &index, 1, &receiver, 1 };
+        struct passes p = { .scene = &scene, .sky_map = sky_map, .light = &light, .world_from_camera = world_from_camera,
+                            .entities = &entity, .includes = &include, .entity_count = 1, .ground = scene.ground,
+                            .receivers = &receiver, .receiver_count = 1 };
         OK(view_cover(&p.view, &camera, (struct rect){ 0, 0, 200, 150 }, &err), "a slope: a view");
         if (OK(render(pass, out, &p), "a slope: POV-Ray renders all three passes"))
             for (int y = 0; y < pass[1].height_px; y++)

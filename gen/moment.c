@@ -1,0 +1,130 @@
+#include "gen/moment.h"
+
+#include "lib/class.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static struct entity scene_entity(const struct stage *stage, size_t i)
+{
+    const struct scene_entity *e = &stage->scene->entities[i];
+    return (struct entity){
+        .id = (uint16_t)(i + 1), .name = e->name, .model_name = e->model, .class_ = e->class_,
+        .model = stage->models[e->model_index], .has_color = e->has_color,
+        .color = { e->color[0], e->color[1], e->color[2] },
+    };
+}
+
+/* Stand an entity at (x, y): people upright, vehicles as their wheels have it. */
+static bool stand(struct entity *entity, const struct stage *stage, struct vec2 p, double heading_rad, struct error *err)
+{
+    const struct model *model = entity->model;
+    if (!stage->mesh) {
+        entity->world_from_entity = entity_stand(&stage->scene->ground, vec3(p.x, p.y, 0), heading_rad);
+        return true;
+    }
+    bool upright = class_info(entity->class_)->is_person;
+    double wheelbase = upright ? 0 : 0.6 * (model->max_m.x - model->min_m.x);
+    double track = upright ? 0 : 0.85 * (model->max_m.y - model->min_m.y);
+    return surface_stand(&stage->surface, &entity->world_from_entity, p.x, p.y, heading_rad, wheelbase, track) ||
+           error_set(err, ERR_INPUT, "at (%.2f, %.2f) there is a hole in the static mesh to stand on", p.x, p.y);
+}
+
+/* Its rigged model as it is after a way. */
+static bool pose_entity(struct moment *moment, const struct stage *stage, double distance_m, double phase, double time_s,
+                        struct error *err)
+{
+    struct entity *entity = &moment->entities[moment->n];
+    const struct gait *gait = &stage->gaits[moment->model_index[moment->n]];
+    if (!entity->model->rig) return true;
+    double time = gait_time(gait, distance_m, phase) + (gait->walks ? 0 : time_s);
+    struct model *posed = &moment->posed[moment->posed_count];
+    if (!model_pose(posed, entity->model, time, err)) return false;
+    moment->posed_count++;
+    entity->model = posed;
+    return true;
+}
+
+static bool add_entity(struct moment *moment, const struct stage *stage, size_t i, double time_s, struct error *err)
+{
+    const struct scene_entity *e = &stage->scene->entities[i];
+    struct entity *entity = &moment->entities[moment->n];
+    struct vec2 p = stage->stand_m[i];
+    double heading = e->heading_rad, way_m = 0;
+    *entity = scene_entity(stage, i);
+    moment->model_index[moment->n] = e->model_index;
+    if (stage->courses[i]) {
+        way_m = e->speed_m_s * time_s;
+        struct path_point at = path_at(&stage->courses[i]->path, e->start_m + way_m, e->offset_m);
+        p = at.p_m;
+        heading = at.heading_rad + (e->speed_m_s < 0 ? M_PI : 0);
+        moment->velocity_m_s[moment->n] =
+            vec3(fabs(e->speed_m_s) * sin(heading), fabs(e->speed_m_s) * cos(heading), 0);
+    }
+    if (!stand(entity, stage, p, heading, err)) {
+        stage_fail(stage->scene, e->at_source, err);
+        return error_prefix(err, "entity \"%s\": ", e->name);
+    }
+    if (!pose_entity(moment, stage, fabs(way_m), 0, time_s, err)) return false;
+    moment->n++;
+    return true;
+}
+
+static bool add_mover(struct moment *moment, const struct stage *stage, const struct mover *mover, double time_s,
+                      struct error *err)
+{
+    const struct scene *s = stage->scene;
+    const struct scene_movers *movers = mover->is_person ? &s->people : &s->vehicles;
+    size_t model = movers->models[mover->kind];
+    struct entity *entity = &moment->entities[moment->n];
+    char *name = moment->names[moment->n];
+    snprintf(name, MOVER_NAME_SIZE, "%s %d", mover->is_person ? "person" : "vehicle", (int)mover->id);
+    *entity = (struct entity){ .id = mover->id, .name = name, .model_name = s->models[model].name,
+                               .class_ = s->models[model].class_, .model = stage->models[model],
+                               .has_color = !mover->is_person && mover->color >= 0 };
+    if (entity->has_color) memcpy(entity->color, movers->colors[mover->color], sizeof entity->color);
+    moment->model_index[moment->n] = model;
+    moment->velocity_m_s[moment->n] =
+        vec3(mover->speed_m_s * sin(mover->heading_rad), mover->speed_m_s * cos(mover->heading_rad), 0);
+    if (!stand(entity, stage, mover->p_m, mover->heading_rad, err)) {
+        stage_fail(s, movers->source, err);
+        return error_prefix(err, "%s: ", name);
+    }
+    if (!pose_entity(moment, stage, mover->distance_m, mover->phase, time_s, err)) return false;
+    moment->n++;
+    return true;
+}
+
+bool moment_at(struct moment *out, const struct stage *stage, double time_s, struct error *err)
+{
+    const struct scene *s = stage->scene;
+    size_t mover_count = stage->traffic ? traffic_mover_count(stage->traffic) : 0, most = s->entity_count + mover_count + 1;
+    struct moment moment = {
+        .entities = calloc(most, sizeof *moment.entities), .model_index = calloc(most, sizeof *moment.model_index),
+        .velocity_m_s = calloc(most, sizeof *moment.velocity_m_s), .posed = calloc(most, sizeof *moment.posed),
+        .names = calloc(most, sizeof *moment.names),
+    };
+    struct mover *movers = calloc(most, sizeof *movers);
+    bool ok = (moment.entities && moment.model_index && moment.velocity_m_s && moment.posed && moment.names && movers) ||
+              error_set(err, ERR_MEMORY, "no memory for a moment of the scene");
+    for (size_t i = 0; ok && i < s->entity_count; i++) ok = add_entity(&moment, stage, i, time_s, err);
+    size_t present = ok && stage->traffic ? traffic_at(stage->traffic, movers, time_s) : 0;
+    for (size_t i = 0; ok && i < present; i++) ok = add_mover(&moment, stage, &movers[i], time_s, err);
+    free(movers);
+    if (ok) *out = moment;
+    else moment_release(&moment);
+    return ok;
+}
+
+void moment_release(struct moment *moment)
+{
+    for (size_t i = 0; i < moment->posed_count; i++) model_posed_release(&moment->posed[i]);
+    free(moment->entities);
+    free(moment->model_index);
+    free(moment->velocity_m_s);
+    free(moment->posed);
+    free(moment->names);
+    *moment = (struct moment){ 0 };
+}

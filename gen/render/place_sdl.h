@@ -1,0 +1,15 @@
+/* The parts of the static mesh that a frame needs, as a POV-Ray include. */
+#ifndef STAFFAGE_GEN_PLACE_SDL_H
+#define STAFFAGE_GEN_PLACE_SDL_H
+
+#include "gen/world/static_mesh.h"
+#include "lib/error.h"
+
+#include <stdbool.h>
+
+/* Declares Receivers (what is round the entities, smooth normals) and Shades (what can shade it).
+ * Err: ERR_IO, ERR_MEMORY */
+bool place_include_write(const char *path, const struct static_cut *receivers, const struct static_cut *shades,
+                         struct error *err);
+
+#endif
