@@ -71,7 +71,7 @@ static void write_cut(struct sdl *sdl, const char *name, const struct static_cut
 bool place_include_write(const char *path, const struct static_cut *receivers, const struct static_cut *shades,
                          struct error *err)
 {
-    struct vec3 *normal;
+    struct vec3 *normal = NULL;
     if (!smooth_normals(&normal, receivers, err)) return false;
     struct sdl sdl;
     sdl_init(&sdl);
