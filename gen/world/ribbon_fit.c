@@ -22,6 +22,9 @@
 #define ALONG_M 2.0
 #define ACROSS_M 0.4
 #define CROWN_M 2.0
+#define WIDE_BEND 0.4  /* half width over radius */
+#define NARROW_BEND 0.8
+#define TIGHTEST 0.5   /* inside a narrow bend, nodes count as at least this part of a step apart */
 #define STEEPNESS 6.0    /* power of the cosine that a piece counts with */
 #define FLAT 1e-6      /* weight of slopes: settles what neither mesh nor bending tells */
 #define WIDEST_M 1.0   /* of the weights, at first */
@@ -35,6 +38,7 @@ struct fit {
     double row_m, column_m;   /* steps of the grid */
     struct sample *samples;
     size_t count, room;
+    struct vec2 *node_m;      /* (rows, columns) where the heights are */
     bool *seen;               /* (rows) some mesh is there */
     bool no_memory;
     struct banded system;
@@ -115,6 +119,38 @@ static void add_bending(struct fit *fit, size_t order, bool along, double weight
         }
 }
 
+/* How narrow the bend is at a row: 0 up to where roads are laid out by curves, 1 at a corner. */
+static double narrowness(const struct fit *fit, size_t row)
+{
+    double bend = fabs(path_at(&fit->ribbon->way->path, (double)row * fit->row_m, 0).curvature) * fit->ribbon->half_width_m;
+    return fmin(fmax((bend - WIDE_BEND) / (NARROW_BEND - WIDE_BEND), 0), 1);
+}
+
+/* Bending along the way. In a wide bend a road climbs by the way gone, at all offsets alike. About a corner it lies as
+ * ground does: a plane has no bending there, though three nodes in a column are not in a line; what the slope across
+ * makes of that is taken off, and outside the corner nodes are farther apart. */
+static void add_bending_along(struct fit *fit, double along_m)
+{
+    size_t rows = fit->ribbon->rows, columns = fit->ribbon->columns;
+    for (size_t r = 1; r + 1 < rows; r++) {
+        double corner = narrowness(fit, r), least = TIGHTEST * fit->row_m;
+        for (size_t c = 0; c < columns; c++) {
+            size_t here = r * columns + c, right = here - (c > 0), left = here + (c + 1 < columns);
+            const struct vec2 *p = fit->node_m, *q = &p[here];
+            struct vec2 a = { p[here - columns].x - q->x, p[here - columns].y - q->y };
+            struct vec2 b = { p[here + columns].x - q->x, p[here + columns].y - q->y };
+            struct vec2 across = { p[left].x - p[right].x, p[left].y - p[right].y };
+            double back = fit->row_m + corner * (fmax(hypot(a.x, a.y), least) - fit->row_m);
+            double ahead = fit->row_m + corner * (fmax(hypot(b.x, b.y), least) - fit->row_m);
+            double wa = 2 * ahead / (back + ahead), wb = 2 * back / (back + ahead), step = (back + ahead) / 2;
+            double aside = corner * ((wa * a.x + wb * b.x) * across.x + (wa * a.y + wb * b.y) * across.y)
+                           / (across.x * across.x + across.y * across.y);
+            banded_add(&fit->system, (size_t[5]){ here - columns, here, here + columns, left, right },
+                       (double[5]){ wa, -2, wb, -aside, aside }, 5, 0, step * fit->column_m * pow(along_m / step, 4));
+        }
+    }
+}
+
 /* weight_of: of a residual, with a width */
 static bool solve(struct fit *fit, double along_m, double across_m, double crown_m, double (*weight_of)(double, double),
                   double width_m)
@@ -131,7 +167,7 @@ static bool solve(struct fit *fit, double along_m, double across_m, double crown
     double cell = fit->row_m * fit->column_m;
     add_bending(fit, 1, true, cell * FLAT);
     add_bending(fit, 1, false, cell * FLAT);
-    add_bending(fit, 2, true, cell * pow(along_m / fit->row_m, 4));
+    add_bending_along(fit, along_m);
     add_bending(fit, 2, false, cell * pow(across_m / fit->column_m, 4));
     add_bending(fit, 3, false, cell * pow(crown_m / fit->column_m, 6));
     if (!banded_solve(&fit->system)) return false;
@@ -223,8 +259,13 @@ bool ribbon_fit(struct ribbon *ribbon, const struct way *way, struct static_mesh
     bool good = false;
     if (!strip_create(&new.strip, &way->path, half + RIBBON_MARGIN_M, err)) goto out;
     new.height_m = calloc(new.rows * new.columns, sizeof *new.height_m);
+    fit.node_m = malloc(new.rows * new.columns * sizeof *fit.node_m);
     fit.seen = calloc(new.rows, sizeof *fit.seen);
-    fit.no_memory = !new.height_m || !fit.seen || !banded_create(&fit.system, new.rows * new.columns, 2 * new.columns);
+    fit.no_memory = !new.height_m || !fit.seen || !fit.node_m
+                    || !banded_create(&fit.system, new.rows * new.columns, 2 * new.columns);
+    for (size_t i = 0; !fit.no_memory && i < new.rows * new.columns; i++)
+        fit.node_m[i] = path_at(&way->path, (double)(i / new.columns) * fit.row_m,
+                                (double)(i % new.columns) * fit.column_m - half).p_m;
     if (!fit.no_memory) strip_visit(&new.strip, mesh, RIBBON_STEP_M, take_piece, &fit);
     if (fit.no_memory) {
         error_set(err, ERR_MEMORY, "no memory for the surface of %s", way->name);
@@ -248,6 +289,7 @@ bool ribbon_fit(struct ribbon *ribbon, const struct way *way, struct static_mesh
     good = true;
 out:
     banded_release(&fit.system);
+    free(fit.node_m);
     free(fit.seen);
     free(fit.samples);
     ribbon_release(&new);

@@ -20,7 +20,7 @@ struct fill {
 struct cover {
     const struct ribbon *ribbons;
     size_t count, which;
-    size_t rows, columns;      /* of parts */
+    size_t rows, columns;      /* of parts, with one more around the ribbon */
     bool *covered;             /* (rows, columns) */
 };
 
@@ -48,8 +48,8 @@ static void cover_piece(void *user, const struct vec3 corner_m[3])
     for (int i = 0; i < 3; i++) {
         struct strip_place place;
         if (!strip_find(&ribbon->strip, &place, corner_m[i].x, corner_m[i].y)) return;
-        u[i] = (place.offset_m / ribbon->half_width_m + 1) / 2 * (double)cover->columns - 0.5;
-        v[i] = place.s_m / length * (double)cover->rows - 0.5;
+        u[i] = (place.offset_m / ribbon->half_width_m + 1) / 2 * (double)(cover->columns - 2) + 0.5;
+        v[i] = place.s_m / length * (double)(cover->rows - 2) + 0.5;
         if (ribbons_at(cover->ribbons, cover->count, &z[i], corner_m[i].x, corner_m[i].y) <= 0) return;
         z[i] = corner_m[i].z - z[i];
     }
@@ -97,12 +97,12 @@ static uint32_t fill_vertex(struct fill *fill, uint32_t *known, const struct cov
     return *vertex;
 }
 
-/* With one part of the neighbours: a hole may end between two parts. */
+/* With one part around it: a hole may end between two parts. */
 static bool is_covered(const struct cover *cover, size_t row, size_t column)
 {
     size_t top = row * CELL_PARTS, left = column * CELL_PARTS;
-    for (size_t y = top ? top - 1 : 0; y <= top + CELL_PARTS && y < cover->rows; y++)
-        for (size_t x = left ? left - 1 : 0; x <= left + CELL_PARTS && x < cover->columns; x++)
+    for (size_t y = top; y < top + CELL_PARTS + 2; y++)
+        for (size_t x = left; x < left + CELL_PARTS + 2; x++)
             if (!cover->covered[y * cover->columns + x]) return false;
     return true;
 }
@@ -137,8 +137,8 @@ static bool fill_holes(struct fill *fill, struct static_mesh *mesh, struct cover
 {
     const struct ribbon *ribbon = &cover->ribbons[cover->which];
     size_t nodes = ribbon->rows * ribbon->columns;
-    cover->rows = (ribbon->rows - 1) * CELL_PARTS;
-    cover->columns = (ribbon->columns - 1) * CELL_PARTS;
+    cover->rows = (ribbon->rows - 1) * CELL_PARTS + 2;
+    cover->columns = (ribbon->columns - 1) * CELL_PARTS + 2;
     cover->covered = calloc(cover->rows * cover->columns, sizeof *cover->covered);
     uint32_t *known = malloc(nodes * sizeof *known);
     bool good = cover->covered && known;

@@ -12,25 +12,20 @@
 
 #define SHORTEST_PIECE_M 1.0 /* what is cut off shorter at the rectangle's edge is no road */
 
-/* Two halves, so that those who meet keep to their side. */
-static void walk(struct way *way, double middle_m, double width_m, enum driving_side side)
+static void walk(struct way *way, double middle_m, double width_m)
 {
-    for (int half = 0; half < 2; half++)
-        way->lanes[way->lane_count++] = (struct lane){
-            .use = ROAD_PEOPLE, .width_m = width_m / 2, .offset_m = middle_m + (half ? -1 : 1) * width_m / 4,
-            .backward = (side == DRIVE_RIGHT) == (half == 0),
-        };
+    way->lanes[way->lane_count++] = (struct lane){ .use = ROAD_PEOPLE, .offset_m = middle_m, .width_m = width_m };
 }
 
 /* The lanes from left to right. */
 static bool lanes_create(struct way *way, const struct road_traits *traits, enum driving_side side)
 {
     int drive = traits->forward + traits->backward;
-    way->lanes = calloc((size_t)drive + 4, sizeof *way->lanes);
+    way->lanes = calloc((size_t)drive + 2, sizeof *way->lanes);
     if (!way->lanes) return false;
     double aside = (way->width_m + way->sidewalk_m) / 2;
-    if (way->use == ROAD_PEOPLE) walk(way, 0, way->width_m, side);
-    if (traits->walk_left) walk(way, aside, way->sidewalk_m, side);
+    if (way->use == ROAD_PEOPLE) walk(way, 0, way->width_m);
+    if (traits->walk_left) walk(way, aside, way->sidewalk_m);
     for (int i = 0; i < drive; i++) {
         bool backward = side == DRIVE_RIGHT ? i < traits->backward : i >= traits->forward;
         way->lanes[way->lane_count++] = (struct lane){
@@ -39,7 +34,7 @@ static bool lanes_create(struct way *way, const struct road_traits *traits, enum
             .speed_limit_m_s = traits->limit_m_s[backward],
         };
     }
-    if (traits->walk_right) walk(way, -aside, way->sidewalk_m, side);
+    if (traits->walk_right) walk(way, -aside, way->sidewalk_m);
     return true;
 }
 

@@ -12,12 +12,13 @@
 enum road_use { ROAD_VEHICLES, ROAD_PEOPLE };
 enum driving_side { DRIVE_RIGHT, DRIVE_LEFT };
 
-/* Where one follows another. Vehicles' lanes lie on the road, people's on a footway or sidewalk. */
+/* Where one follows another. Vehicles' lanes lie on the road; people's are a footway's or sidewalk's whole
+ * width, walked in both directions. */
 struct lane {
     enum road_use use;
     double offset_m;         /* of its centre, to the left of the way's direction */
     double width_m;
-    bool backward;           /* walked or driven against the way's direction */
+    bool backward;           /* driven against the way's direction */
     double speed_limit_m_s;  /* 0: none is known */
 };
 
