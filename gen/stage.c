@@ -202,7 +202,7 @@ static bool add_paths(struct stage *stage, const struct road_rules *rules, struc
 }
 
 /* Pixels of photographs are found on the mesh as it is, before roads are laid into it. */
-static bool load_roads(struct stage *stage, struct error *err)
+static bool load_roads(struct stage *stage, size_t *of_map, struct error *err)
 {
     const struct scene *s = stage->scene;
     struct road_rules rules = { s->driving_side, s->sidewalk_m, s->place, s->north_rad };
@@ -213,8 +213,12 @@ static bool load_roads(struct stage *stage, struct error *err)
         keep[0] = (struct vec2){ min_m.x, min_m.y };
         keep[1] = (struct vec2){ max_m.x, max_m.y };
     }
-    return (!s->osm || (roads_read_osm(&stage->roads, s->osm, &rules, keep, err) && file_hash(&stage->hash, s->osm, err))) &&
-           add_paths(stage, &rules, err);
+    if (s->osm && (!roads_read_osm(&stage->roads, s->osm, &rules, keep, err) || !file_hash(&stage->hash, s->osm, err)))
+        return false;
+    *of_map = stage->roads.way_count;
+    if (!add_paths(stage, &rules, err)) return false;
+    if (stage->mesh) static_mesh_unindex(stage->mesh);
+    return true;
 }
 
 static bool load_mesh(struct stage *stage, struct error *err)
@@ -229,16 +233,25 @@ static bool load_mesh(struct stage *stage, struct error *err)
     return !by_pixel || static_mesh_index(stage->mesh, from->detail_m, err);
 }
 
-/* A smooth road along every way that lies over the mesh. */
-static bool smooth_roads(struct stage *stage, struct error *err)
+/* A smooth road along every way. Of the map, those that hardly touch the mesh are none of this place's;
+ * a path by hand is meant to lie on it. */
+static bool smooth_roads(struct stage *stage, size_t of_map, struct error *err)
 {
     stage->ribbons = calloc(stage->roads.way_count + 1, sizeof *stage->ribbons);
     if (!stage->ribbons) return out_of_memory(err);
-    for (size_t i = 0; i < stage->roads.way_count; i++) {
-        struct ribbon *ribbon = &stage->ribbons[stage->ribbon_count];
-        if (!ribbon_fit(ribbon, &stage->roads.ways[i], stage->mesh, err))
-            return error_prefix(err, "road \"%s\": ", stage->roads.ways[i].name);
-        stage->ribbon_count++;
+    while (stage->ribbon_count < stage->roads.way_count) {
+        size_t i = stage->ribbon_count;
+        struct error wrong = ERROR_NONE;
+        if (ribbon_fit(&stage->ribbons[i], &stage->roads.ways[i], stage->mesh, &wrong)) {
+            stage->ribbon_count++;
+        } else if (wrong.code == ERR_INPUT && i < of_map) {
+            roads_drop(&stage->roads, i);
+            of_map--;
+        } else {
+            *err = wrong;
+            if (i >= of_map) stage_fail(stage->scene, stage->scene->paths[i - of_map].source, err);
+            return error_prefix(err, "path ");
+        }
     }
     if (!ribbons_lay(stage->mesh, stage->ribbons, stage->ribbon_count, err)) return false;
     stage->surface.ribbons = stage->ribbons;
@@ -249,8 +262,9 @@ static bool smooth_roads(struct stage *stage, struct error *err)
 static bool load_place(struct stage *stage, struct error *err)
 {
     stage->surface = (struct surface){ .plane = stage->scene->ground };
-    if (!stage->scene->static_.mesh) return load_roads(stage, err);
-    return load_mesh(stage, err) && load_roads(stage, err) && smooth_roads(stage, err);
+    size_t of_map;
+    if (!stage->scene->static_.mesh) return load_roads(stage, &of_map, err);
+    return load_mesh(stage, err) && load_roads(stage, &of_map, err) && smooth_roads(stage, of_map, err);
 }
 
 /* --- traffic --- */

@@ -57,6 +57,8 @@ void error_print(const struct error *err, const char *program)
 {
     if (!err->file[0])
         fprintf(stderr, "%s: %s\n", program, err->text);
+    else if (err->line > 0 && err->column <= 0)
+        fprintf(stderr, "%s:%d: %s\n", err->file, err->line, err->text);
     else if (err->line > 0)
         fprintf(stderr, "%s:%d:%d: %s\n", err->file, err->line, err->column, err->text);
     else

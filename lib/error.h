@@ -47,7 +47,7 @@ bool error_at(struct error *err, enum error_code code, const char *file, int lin
 __attribute__((format(printf, 2, 3)))
 bool error_prefix(struct error *err, const char *format, ...);
 
-/* Print as `FILE:LINE:COLUMN: TEXT` and a newline to stderr: for main() only. */
+/* Print as `FILE:LINE:COLUMN: TEXT` and a newline to stderr, what is unknown left out: for main() only. */
 void error_print(const struct error *err, const char *program);
 
 /* Exit status for an error: 0 done, 1 input or render at fault, 3 a bug of ours. */

@@ -20,7 +20,7 @@ $(OWN_MODELS) $(OWN_WALKERS): %D%/models/made.stamp
 	$(AM_V_GEN)scenes/models/make-models$(EXEEXT) %D%/models && touch $@
 CLEANFILES += %D%/models/made.stamp
 
-EXTRA_DIST += %D%/demo/scene.yaml %D%/craig/sunny.yaml %D%/craig/wet.yaml %D%/craig/median.yaml
+EXTRA_DIST += %D%/brighton/scene.yaml %D%/demo/scene.yaml %D%/craig/sunny.yaml %D%/craig/wet.yaml %D%/craig/median.yaml
 .PHONY: demo
 demo: all
 	@test -f $(srcdir)/%D%/demo/vtest.avi || { echo 'demo: %D%/demo/vtest.avi is missing: ./bootstrap fetches it' >&2; exit 1; }

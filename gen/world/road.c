@@ -87,6 +87,13 @@ void roads_release(struct road_network *roads)
     *roads = (struct road_network){ 0 };
 }
 
+void roads_drop(struct road_network *roads, size_t way)
+{
+    way_release(&roads->ways[way]);
+    roads->way_count--;
+    memmove(&roads->ways[way], &roads->ways[way + 1], (roads->way_count - way) * sizeof *roads->ways);
+}
+
 /* The part of the segment within the rectangle, as parts of its way from a to b. */
 static bool clip(const struct vec2 keep[2], struct vec2 a, struct vec2 b, double *from, double *to)
 {

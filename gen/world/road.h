@@ -54,5 +54,7 @@ bool roads_read_osm(struct road_network *roads, const char *path, const struct r
 bool roads_add(struct road_network *roads, const char *name, enum road_use use, const struct vec2 *point_m, size_t n,
                double width_m, bool oneway, const struct road_rules *rules, struct error *err);
 void roads_release(struct road_network *roads);
+/* Take a way out; those behind it move up. */
+void roads_drop(struct road_network *roads, size_t way);
 
 #endif

@@ -221,7 +221,7 @@ int static_mesh_label(const struct static_mesh *mesh, uint32_t triangle)
 
 bool static_mesh_index(struct static_mesh *mesh, double detail_m, struct error *err)
 {
-    if (mesh->indexed) return error_set(err, ERR_BUG, "a mesh is indexed once");
+    if (mesh->indexed) return error_set(err, ERR_BUG, "the mesh is indexed already");
     if (!(detail_m > 0)) return error_set(err, ERR_INPUT, "the detail of a mesh must be above 0 m, not %g", detail_m);
     static_mesh_bounds(mesh, &mesh->min_m, &mesh->max_m);
     struct vec3 size = vec3_sub(mesh->max_m, mesh->min_m);
@@ -230,4 +230,12 @@ bool static_mesh_index(struct static_mesh *mesh, double detail_m, struct error *
     if (!static_rays_build(mesh, err) || !static_tiles_build(mesh, detail_m, err)) return false;
     mesh->indexed = true;
     return true;
+}
+
+void static_mesh_unindex(struct static_mesh *mesh)
+{
+    static_rays_release(mesh);
+    static_tiles_destroy(mesh->tiles);
+    mesh->tiles = NULL;
+    mesh->indexed = false;
 }

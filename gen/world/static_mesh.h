@@ -45,6 +45,8 @@ bool static_mesh_keep(struct static_mesh *mesh, const bool *keep, struct error *
 
 /* Build the search tree and the tiles. detail_m: edge of the cells to which cuts are coarsened. */
 bool static_mesh_index(struct static_mesh *mesh, double detail_m, struct error *err);
+/* Drop both, so that the mesh may be changed and indexed again. */
+void static_mesh_unindex(struct static_mesh *mesh);
 
 /* --- rays --- */
 

@@ -43,6 +43,8 @@ void static_rays_release(struct static_mesh *mesh)
 {
     if (mesh->scene) rtcReleaseScene(mesh->scene);
     if (mesh->device) rtcReleaseDevice(mesh->device);
+    mesh->scene = NULL;
+    mesh->device = NULL;
 }
 
 /* Embree counts in floats: a ray starts where it enters the mesh's box, so that an origin far away
