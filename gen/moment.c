@@ -32,6 +32,14 @@ static bool stand(struct entity *entity, const struct stage *stage, struct vec2 
            error_set(err, ERR_INPUT, "at (%.2f, %.2f) there is a hole in the static mesh to stand on", p.x, p.y);
 }
 
+/* As fast over the ground as it goes on the map, up and down with its own front. */
+static struct vec3 velocity(const struct entity *entity, double speed_m_s, double heading_rad)
+{
+    struct vec3 front = mat3_column(entity->world_from_entity.rotation, 0);
+    if (speed_m_s == 0) return vec3(0, 0, 0);
+    return vec3_scale(vec3(sin(heading_rad), cos(heading_rad), front.z / hypot(front.x, front.y)), speed_m_s);
+}
+
 /* Its rigged model as it is after a way. */
 static bool pose_entity(struct moment *moment, const struct stage *stage, double distance_m, double phase, double time_s,
                         struct error *err)
@@ -52,21 +60,24 @@ static bool add_entity(struct moment *moment, const struct stage *stage, size_t 
     const struct scene_entity *e = &stage->scene->entities[i];
     struct entity *entity = &moment->entities[moment->n];
     struct vec2 p = stage->stand_m[i];
-    double heading = e->heading_rad, way_m = 0;
+    double heading = e->heading_rad, way_m = 0, speed = 0;
     *entity = scene_entity(stage, i);
     moment->model_index[moment->n] = e->model_index;
     if (stage->courses[i]) {
-        way_m = e->speed_m_s * time_s;
-        struct path_point at = path_at(&stage->courses[i]->path, e->start_m + way_m, e->offset_m);
+        const struct path *path = &stage->courses[i]->path;
+        double s = e->start_m + e->speed_m_s * time_s;
+        double held = fmin(fmax(s, 0), path_length(path)); /* who comes to an end of the path stands there */
+        struct path_point at = path_at(path, held, e->offset_m);
         p = at.p_m;
         heading = at.heading_rad + (e->speed_m_s < 0 ? M_PI : 0);
-        moment->velocity_m_s[moment->n] =
-            vec3(fabs(e->speed_m_s) * sin(heading), fabs(e->speed_m_s) * cos(heading), 0);
+        way_m = held - fmin(e->start_m, path_length(path));
+        if (held == s) speed = fabs(e->speed_m_s);
     }
     if (!stand(entity, stage, p, heading, err)) {
         stage_fail(stage->scene, e->at_source, err);
         return error_prefix(err, "entity \"%s\": ", e->name);
     }
+    moment->velocity_m_s[moment->n] = velocity(entity, speed, heading);
     if (!pose_entity(moment, stage, fabs(way_m), 0, time_s, err)) return false;
     moment->n++;
     return true;
@@ -86,12 +97,11 @@ static bool add_mover(struct moment *moment, const struct stage *stage, const st
                                .has_color = !mover->is_person && mover->color >= 0 };
     if (entity->has_color) memcpy(entity->color, movers->colors[mover->color], sizeof entity->color);
     moment->model_index[moment->n] = model;
-    moment->velocity_m_s[moment->n] =
-        vec3(mover->speed_m_s * sin(mover->heading_rad), mover->speed_m_s * cos(mover->heading_rad), 0);
     if (!stand(entity, stage, mover->p_m, mover->heading_rad, err)) {
         stage_fail(s, movers->source, err);
         return error_prefix(err, "%s: ", name);
     }
+    moment->velocity_m_s[moment->n] = velocity(entity, mover->speed_m_s, mover->heading_rad);
     if (!pose_entity(moment, stage, mover->distance_m, mover->phase, time_s, err)) return false;
     moment->n++;
     return true;
