@@ -2,9 +2,9 @@
 
 #include "gen/moment.h"
 #include "gen/render/place_sdl.h"
+#include "gen/shutter.h"
 #include "gen/sunlit.h"
 #include "gen/trace/label.h"
-#include "gen/trace/motion.h"
 #include "gen/trace/place.h"
 #include "gen/trace/plane_depth.h"
 #include "gen/world/prism.h"
@@ -65,8 +65,7 @@ static bool place_occluders(struct frame *f, struct error *err)
         if (!polygon) return error_set(err, ERR_MEMORY, "no memory for an occluder");
         for (size_t k = 0; k < o->polygon_count; k++) polygon[k] = scaled_px(f, o->polygon_px[k]);
         f->occluders[i] = (struct occluder){ .name = o->name, .polygon_px = polygon, .polygon_count = o->polygon_count };
-        if (!ground_from_pixel(&f->occluders[i].foot_m, &s->ground, f->camera, f->shot->world_from_camera,
-                               scaled_px(f, o->ground_px), err)) {
+        if (!stage_ground_at(&f->occluders[i].foot_m, f->stage, f->shot, o->ground_px, err)) {
             stage_fail(s, o->source, err);
             return error_prefix(err, "occluder \"%s\": ", o->name);
         }
@@ -94,10 +93,10 @@ static bool set_stage(struct frame *f, struct error *err)
         struct plane ground = local_ground(f, &f->moment.entities[i]);
         if (!receiver_create(&f->receivers[i], &f->moment.entities[i], &ground, f->context->light, err)) return false;
     }
-    struct vec3 min_m, max_m;
-    if (!f->stage->mesh) return place_occluders(f, err);
-    static_mesh_bounds(f->stage->mesh, &min_m, &max_m);
-    return surroundings_create(&f->around, f->receivers, f->moment.entities, f->moment.n, f->context->light, max_m.z, err);
+    struct vec3 min_m, max_m = { 0, 0, 0 };
+    if (f->stage->mesh) static_mesh_bounds(f->stage->mesh, &min_m, &max_m);
+    return place_occluders(f, err) && surroundings_create(&f->around, f->receivers, f->moment.entities, f->moment.n,
+                                                          f->context->light, max_m.z, err);
 }
 
 static struct trace_input trace_input(const struct frame *f)
@@ -183,45 +182,6 @@ static struct rect changed_window(struct frame *f)
 
 /* --- labels --- */
 
-/* The camera when the shutter closes: on its way to the next shot, or on from the one before. */
-static struct pose closing_pose(const struct frame *f)
-{
-    const struct scene *s = f->scene;
-    size_t i = (size_t)(f->shot - s->shots), other = i + 1 < s->shot_count ? i + 1 : i > 0 ? i - 1 : i;
-    struct pose here = f->shot->world_from_camera, there = s->shots[other].world_from_camera;
-    double span = s->shots[other].time_s - f->shot->time_s;
-    if (s->fixed_camera || !s->has_times || other == i || span == 0) return here;
-    double t = s->exposure_s / span;
-    struct quat a = quat_from_mat3(here.rotation), b = quat_from_mat3(there.rotation);
-    double sign = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z < 0 ? -1 : 1;
-    struct quat q = { a.w + t * (sign * b.w - a.w), a.x + t * (sign * b.x - a.x), a.y + t * (sign * b.y - a.y),
-                      a.z + t * (sign * b.z - a.z) };
-    return (struct pose){ mat3_from_quat(q), vec3_add(here.translation, vec3_scale(vec3_sub(there.translation, here.translation), t)) };
-}
-
-/* Where everything is when the shutter closes, against when it opens at the shot's time. */
-static bool trace_motion(struct frame *f, const struct trace_input *in, struct error *err)
-{
-    size_t n = f->moment.n;
-    struct moment closing = { 0 };
-    struct pose *poses = calloc(2 * n + 1, sizeof *poses);
-    size_t *owner = calloc(n + 1, sizeof *owner);
-    bool ok = (poses && owner) || error_set(err, ERR_MEMORY, "no memory for a frame");
-    ok = ok && moment_at(&closing, f->stage, f->shot->time_s + f->scene->exposure_s, err);
-    for (size_t i = 0; ok && i < n; i++) {
-        owner[i] = i;
-        poses[i] = poses[n + i] = f->moment.entities[i].world_from_entity;
-        for (size_t k = 0; k < closing.n; k++)
-            if (closing.entities[k].id == f->moment.entities[i].id) poses[n + i] = closing.entities[k].world_from_entity;
-    }
-    struct motion_input move = { f->shot->world_from_camera, closing_pose(f), poses, poses + n };
-    ok = ok && motion_trace(&f->motion, in, owner, &f->labels, &move, err);
-    moment_release(&closing);
-    free(poses);
-    free(owner);
-    return ok;
-}
-
 /* Mist needs to know how far away the ground is, a plane as well. */
 static bool write_plane_depth(const struct frame *f, struct error *err)
 {
@@ -243,12 +203,12 @@ static bool trace(struct frame *f, struct error *err)
         .world_from_camera = f->shot->world_from_camera,
         .has_sun = f->context->light->has_sun, .sun_direction = f->context->light->sun_direction,
         .entities = f->moment.entities, .entity_count = f->moment.n,
-        .time_s = f->scene->has_times ? f->shot->time_s : NAN, .velocity_m_s = f->moment.velocity_m_s,
+        .time_s = f->scene->has_times ? f->shot->time_s : NAN, .velocity_m_s = f->scene->has_times ? f->moment.velocity_m_s : NULL,
         .palette = f->scene->palette,
     };
     if (!trace_frame(&f->labels, f->context->tracer, &in, err)) return false;
     if (f->scene->exposure_s > 0) {
-        if (!trace_motion(f, &in, err)) return false;
+        if (!shutter_motion(&f->motion, f->stage, f->shot, &f->moment, &in, &f->labels, err)) return false;
         context.motion = &f->motion;
     }
     return labels_write(f->folder, &f->labels, &context, err) &&
@@ -295,6 +255,17 @@ static bool absolute(char to[1024], const char *path, struct error *err)
     return ok;
 }
 
+static bool sample_roads(struct manifest *m, const struct frame *f, struct error *err)
+{
+    const struct scene *s = f->scene;
+    return sunlit_pixels(&m->exposure_sample_px, &m->exposure_samples, f->stage, f->context->light, f->camera,
+                         f->shot->world_from_camera, err) &&
+           (m->exposure_samples > 0 ||
+            error_at(err, ERR_INPUT, s->path, s->exposure_source.line, s->exposure_source.column,
+                     "exposure.roads: frame %s shows no road in full light to be fitted to: give exposure.value, or leave "
+                     "the shot in line %d out", f->name, f->shot->source.line));
+}
+
 static bool write_manifest(const struct frame *f, const struct frame_result *result, struct error *err)
 {
     static const char *const transfers[] = { "layers", "ratio", "threshold", "alpha" };
@@ -318,10 +289,10 @@ static bool write_manifest(const struct frame *f, const struct frame_result *res
     if (!absolute(m.semantic, f->shot->semantic, err) || !absolute(m.depth, f->shot->depth, err)) return false;
     snprintf(m.transfer, sizeof m.transfer, "%s", transfers[s->transfer]);
     ground_radiance(m.ground_radiance, f);
-    if (s->exposure_of_roads &&
-        !sunlit_pixels(&m.exposure_sample_px, &m.exposure_samples, f->stage, f->context->light, f->camera,
-                       f->shot->world_from_camera, err))
+    if (s->exposure_of_roads && !m.empty && !sample_roads(&m, f, err)) {
+        free(m.exposure_sample_px);
         return false;
+    }
     if (!s->exposure_given && !s->exposure_of_roads) m.exposure_patch_px = patch_px(f);
     m.entities = calloc(f->moment.n + 1, sizeof *m.entities);
     if (!m.entities) {
@@ -374,8 +345,10 @@ static bool write_place(char path[64], struct plane *below, const struct frame *
     ok = ok && (file || error_set(err, ERR_MEMORY, "no memory for a path")) &&
          place_include_write(file, &receivers, &shades, err);
     double lowest = INFINITY;
+    for (size_t i = 0; i < f->moment.n; i++)
+        if (f->matters[i]) lowest = fmin(lowest, f->moment.entities[i].world_from_entity.translation.z);
     for (size_t i = 0; i < receivers.vertices; i++) lowest = fmin(lowest, (double)receivers.position_m[i][2]);
-    *below = (struct plane){ vec3(0, 0, 1), isfinite(lowest) ? lowest - 0.5 : 0 };
+    *below = (struct plane){ vec3(0, 0, 1), lowest - 0.5 };
     static_cut_release(&receivers);
     static_cut_release(&shades);
     free(file);

@@ -53,6 +53,7 @@ gen_libgen_a_SOURCES = \
   %D%/scene/schema.c %D%/scene/schema.h \
   %D%/scene/schema_words.c %D%/scene/schema_words.h \
   %D%/scene/yaml.c %D%/scene/yaml.h \
+  %D%/shutter.c %D%/shutter.h \
   %D%/stage.c %D%/stage.h \
   %D%/trace/backdrop.c %D%/trace/backdrop.h \
   %D%/trace/cast.c %D%/trace/cast.h \

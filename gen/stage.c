@@ -115,19 +115,22 @@ static bool world_from_geodetic(struct vec2 *p, const struct scene *s, double la
     return true;
 }
 
+bool stage_ground_at(struct vec3 *p, const struct stage *stage, const struct scene_shot *shot, struct vec2 q_px,
+                     struct error *err)
+{
+    const struct camera *camera = &stage->scene->cameras[shot->camera].camera;
+    struct vec3 ray;
+    if (!stage->mesh) return ground_from_pixel(p, &stage->scene->ground, camera, shot->world_from_camera, q_px, err);
+    return camera_unproject(camera, &ray, q_px, err) &&
+           (surface_intersect(&stage->surface, p, shot->world_from_camera.translation,
+                              mat3_apply(shot->world_from_camera.rotation, ray)) ||
+            error_set(err, ERR_INPUT, "pixel (%.6g, %.6g) does not see the static mesh", q_px.x, q_px.y));
+}
+
 static bool world_from_pixel(struct vec2 *p, const struct stage *stage, struct vec2 q_px, size_t shot, struct error *err)
 {
-    const struct scene_shot *from = &stage->scene->shots[shot];
-    const struct camera *camera = &stage->scene->cameras[from->camera].camera;
-    struct vec3 at, ray;
-    if (!stage->mesh) {
-        if (!ground_from_pixel(&at, &stage->scene->ground, camera, from->world_from_camera, q_px, err)) return false;
-    } else {
-        if (!camera_unproject(camera, &ray, q_px, err)) return false;
-        if (!surface_intersect(&stage->surface, &at, from->world_from_camera.translation,
-                               mat3_apply(from->world_from_camera.rotation, ray)))
-            return error_set(err, ERR_INPUT, "pixel (%.6g, %.6g) does not see the static mesh", q_px.x, q_px.y);
-    }
+    struct vec3 at;
+    if (!stage_ground_at(&at, stage, &stage->scene->shots[shot], q_px, err)) return false;
     *p = (struct vec2){ at.x, at.y };
     return true;
 }

@@ -41,6 +41,11 @@ struct stage {
 bool stage_create(struct stage **stage, const struct scene *scene, const struct material_rules *rules, struct error *err);
 void stage_destroy(struct stage *stage);
 
+/* The ground that a shot's pixel shows, in pixels of its camera as the scene gives it.
+ * Err: ERR_INPUT without a place: it shows none */
+bool stage_ground_at(struct vec3 *p_m, const struct stage *stage, const struct scene_shot *shot, struct vec2 q_px,
+                     struct error *err);
+
 /* Record an error at a place in the scene file, unless it has a place. Returns false. */
 bool stage_fail(const struct scene *scene, struct source where, struct error *err);
 

@@ -191,6 +191,11 @@ tests_gen_traffic_test_SOURCES = %D%/gen/traffic.c %D%/tap.h
 nodist_EXTRA_tests_gen_traffic_test_SOURCES = dummy.cxx
 tests_gen_traffic_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/frame.test
+tests_gen_frame_test_SOURCES = %D%/gen/frame.c %D%/tap.h
+nodist_EXTRA_tests_gen_frame_test_SOURCES = dummy.cxx
+tests_gen_frame_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/fusion.test
 tests_gen_fusion_test_SOURCES = %D%/gen/fusion.c %D%/tap.h
 nodist_EXTRA_tests_gen_fusion_test_SOURCES = dummy.cxx

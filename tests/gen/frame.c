@@ -1,0 +1,175 @@
+/* Whole frames, from a scene's text to the files in its folder. */
+#include "gen/generator.h"
+#include "lib/file.h"
+#include "lib/image.h"
+#include "lib/manifest.h"
+
+#include "tests/tap.h"
+
+#include <jansson.h>
+#include <unistd.h>
+
+static char scratch[] = "frame-test.XXXXXX";
+static char top[512]; /* the sources */
+
+#define HIGH "pose: {look_at: {position_m: [0, -5, 30], target_m: [0, 0, 0]}}"
+
+static char *in_scratch(const char *name)
+{
+    return string_format("%s/%s", scratch, name);
+}
+
+static void put(const char *name, const char *text)
+{
+    struct error err = ERROR_NONE;
+    char *path = in_scratch(name);
+    if (!file_write(path, text, strlen(text), &err)) OK(false, "%s can be written: %s", path, err.text);
+    free(path);
+}
+
+/* A scene's first frame: head, then the rest of its text. False, and why, when it cannot be made. */
+static bool make(const char *head, const char *rest, struct error *err)
+{
+    struct scene *scene = NULL;
+    struct generator *generator = NULL;
+    struct frame_result result;
+    char *text = string_format("staffage: 1\nquality: draft\nlight: {sky: clear, sun: {azimuth_deg: 180, elevation_deg: 50}}\n"
+                               "models: {box: {file: %s/tests/input/box.obj, unit_m: 1, up: +z, front: +x, class: car}}\n%s\n%s\n",
+                               top, head, rest);
+    char *rules = string_format("%s/templates/materials.rules", top), *path = in_scratch("scene.yaml"), *out = in_scratch("out");
+    put("scene.yaml", text);
+    bool ok = scene_read(&scene, path, err) && generator_create(&generator, scene, out, rules, err) &&
+              generator_frame(&result, generator, 0, err);
+    generator_destroy(generator);
+    scene_destroy(scene);
+    free(text);
+    free(rules);
+    free(path);
+    free(out);
+    return ok;
+}
+
+static bool makes(const char *head, const char *rest)
+{
+    struct error err = ERROR_NONE;
+    bool ok = make(head, rest, &err);
+    if (!ok) printf("# %s:%d: %s\n", err.file, err.line, err.text);
+    return ok;
+}
+
+static char *of_frame(const char *name)
+{
+    return string_format("%s/out/frames/000000/%s", scratch, name);
+}
+
+/* The first entity's labels; the caller's. */
+static json_t *labels(void)
+{
+    char *path = of_frame("labels.json");
+    json_t *root = json_load_file(path, 0, NULL), *entity = json_incref(json_array_get(json_object_get(root, "entities"), 0));
+    json_decref(root);
+    free(path);
+    return entity;
+}
+
+static char *fixed(const char *more)
+{
+    return string_format("photographs: {files: [%s/tests/input/street.png]%s}\n"
+                         "camera: {model: PINHOLE, size_px: [64, 48], params: [60, 60, 32, 24], " HIGH "}", top, more);
+}
+
+static void test_occluder_over_mesh(void)
+{
+    char *head = fixed("");
+    if (OK(makes(head, "static: {mesh: flat.ply}\nexposure: {value: 1}\n"
+                       "entities: [{name: e, model: box, at: {world_m: [0, 0]}, heading_deg: 0}]\n"
+                       "occluders: [{name: fence, polygon_px: [[20, 20], [44, 20], [44, 40], [20, 40]], ground_px: [32, 30]}]"),
+           "a frame with an occluder over a static mesh")) {
+        json_t *entity = labels(), *hider = json_array_get(json_object_get(entity, "hidden_by"), 0);
+        const char *name = json_string_value(json_object_get(hider, "name"));
+        OK(name && !strcmp(name, "fence"), "an occluder that stands on a static mesh hides what is behind it");
+        OK(!json_object_get(entity, "velocity_m_s"), "nothing has a velocity in a scene that stands still");
+        json_decref(entity);
+    }
+    free(head);
+}
+
+static void test_shade_that_moves(void)
+{
+    char *head = fixed(", rate_hz: 1"), *path = of_frame("motion.exr");
+    struct image motion;
+    struct error err = ERROR_NONE;
+    if (OK(makes(head, "ground: {height_m: 0}\nexposure: {value: 1}\nlens: {exposure_s: 0.1}\n"
+                       "paths: [{name: way, use: vehicles, width_m: 3, points_m: [[0, 0], [20, 0]]}]\n"
+                       "entities: [{name: e, model: box, path: way, speed_m_s: 10}]"),
+           "a frame of a box that moves over a plane") &&
+        OK(image_read(&motion, path, &err), "its motion")) {
+        /* 1 m to the right, seen from about 30 m with f = 60 px. North of the box lies its shadow. */
+        double seen = (double)image_f32(&motion, 32, 24)[0], shade = (double)image_f32(&motion, 32, 19)[0];
+        NEAR(seen, 2, 0.2, "the box moves");
+        NEAR(shade, seen, 0.2, "its shadow on the plane moves with it");
+        image_release(&motion);
+    }
+    free(head);
+    free(path);
+}
+
+static void test_end_of_path(void)
+{
+    char *head = fixed(", rate_hz: 1");
+    static const char rest[] = "static: {mesh: %s.ply}\nexposure: {value: 1}\n"
+                               "paths: [{name: way, use: vehicles, width_m: 3, points_m: [[-10, 0], [10, 0]]}]\n"
+                               "entities: [{name: e, model: box, path: way, start_m: %s, speed_m_s: 6}]";
+    static const struct { const char *mesh, *start; double velocity[3]; const char *what; } cases[] = {
+        { "flat", "10", { 6, 0, 0 }, "who is on its way has its velocity" },
+        { "flat", "30", { 0, 0, 0 }, "who came to the end of its path has none" },
+        { "slope", "10", { 6, 0, 1.2 }, "uphill it goes up as well" },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[512];
+        snprintf(text, sizeof text, rest, cases[i].mesh, cases[i].start);
+        if (!OK(makes(head, text), "a frame of a path")) continue;
+        json_t *entity = labels(), *velocity = json_object_get(entity, "velocity_m_s");
+        for (size_t k = 0; k < 3; k++)
+            NEAR(json_number_value(json_array_get(velocity, k)), cases[i].velocity[k], 0.02, "%s: %c", cases[i].what, "xyz"[k]);
+        json_decref(entity);
+    }
+    free(head);
+}
+
+static void test_exposure_without_roads(void)
+{
+    struct error err = ERROR_NONE;
+    char *head = fixed("");
+    OK(!make(head, "static: {mesh: flat.ply}\nexposure: {roads: true}\n"
+                   "paths: [{name: way, use: vehicles, width_m: 3, points_m: [[-28, 28], [28, 28]]}]\n"
+                   "entities: [{name: e, model: box, at: {world_m: [0, 0]}, heading_deg: 0}]", &err) &&
+       err.code == ERR_INPUT && err.line > 0 && strstr(err.text, "exposure.roads: frame 000000 shows no road in full light"),
+       "a frame that shows no road cannot be exposed by roads, at its place in the scene: %s", err.text);
+    free(head);
+}
+
+int main(void)
+{
+    snprintf(top, sizeof top, "%s", getenv("top_srcdir") ? getenv("top_srcdir") : ".");
+    char *whole = realpath(top, NULL);
+    if (whole) snprintf(top, sizeof top, "%s", whole);
+    free(whole);
+    if (!OK(mkdtemp(scratch) != NULL, "a scratch folder")) return tap_done();
+    static const char mesh[] = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                               "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+                               "-30 -30 %d\n30 -30 %d\n30 30 %d\n-30 30 %d\n3 0 1 2\n3 0 2 3\n";
+    char text[512];
+    snprintf(text, sizeof text, mesh, 0, 0, 0, 0);
+    put("flat.ply", text);
+    snprintf(text, sizeof text, mesh, -6, 6, 6, -6);
+    put("slope.ply", text);
+    test_occluder_over_mesh();
+    test_shade_that_moves();
+    test_end_of_path();
+    test_exposure_without_roads();
+    char *remove = string_format("rm -rf %s", scratch);
+    if (system(remove) != 0) printf("# %s is left\n", scratch);
+    free(remove);
+    return tap_done();
+}
