@@ -1,5 +1,6 @@
 #include "gen/stage.h"
 
+#include "gen/model/rig.h"
 #include "gen/moment.h"
 #include "gen/scene/nearest.h"
 #include "gen/world/ground.h"
@@ -64,7 +65,7 @@ static uint64_t hash_model(uint64_t hash, const struct model *model)
         hash = hash_bytes(hash, figures, sizeof figures);
         if (m->base_image.data) hash = hash_bytes(hash, m->base_image.data, image_size(&m->base_image));
     }
-    return hash;
+    return model->rig ? rig_hash(hash, model->rig) : hash;
 }
 
 /* In: class_ of who uses it first: a model that says nothing is what its first entity is. */

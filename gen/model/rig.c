@@ -1,5 +1,7 @@
 #include "gen/model/rig.h"
 
+#include "lib/file.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -254,6 +256,46 @@ bool rig_follow(struct rig *rig, const struct mesh *meshes, struct error *err)
     }
     free(world);
     return err->code == ERR_OK;
+}
+
+static uint64_t hash_node(uint64_t hash, const struct rig_node *node)
+{
+    hash = hash_bytes(hash, &node->parent, sizeof node->parent);
+    if (node->has_matrix) return hash_bytes(hash, &node->matrix, sizeof node->matrix);
+    hash = hash_bytes(hash, node->translation, sizeof node->translation);
+    hash = hash_bytes(hash, node->rotation, sizeof node->rotation);
+    return hash_bytes(hash, node->scale, sizeof node->scale);
+}
+
+static uint64_t hash_channel(uint64_t hash, const struct rig_channel *channel)
+{
+    const size_t what[] = { channel->node, channel->keys, channel->path, channel->interpolation };
+    size_t values = channel->keys * (channel->path == GLTF_ROTATION ? 4 : 3) * (channel->interpolation == GLTF_CUBIC ? 3 : 1);
+    hash = hash_bytes(hash, what, sizeof what);
+    hash = hash_bytes(hash, channel->time_s, channel->keys * sizeof *channel->time_s);
+    return hash_bytes(hash, channel->value, values * sizeof *channel->value);
+}
+
+static uint64_t hash_mesh(uint64_t hash, const struct rig_mesh *mesh)
+{
+    const size_t what[] = { mesh->node, mesh->skin, mesh->per_vertex, mesh->vertices };
+    hash = hash_bytes(hash, what, sizeof what);
+    if (mesh->per_vertex) hash = hash_bytes(hash, mesh->influence, mesh->vertices * mesh->per_vertex * sizeof *mesh->influence);
+    hash = hash_bytes(hash, mesh->position, mesh->vertices * sizeof *mesh->position);
+    return mesh->normal ? hash_bytes(hash, mesh->normal, mesh->vertices * sizeof *mesh->normal) : hash;
+}
+
+uint64_t rig_hash(uint64_t hash, const struct rig *rig)
+{
+    for (size_t i = 0; i < rig->node_count; i++) hash = hash_node(hash, &rig->nodes[i]);
+    for (size_t i = 0; i < rig->channel_count; i++) hash = hash_channel(hash, &rig->channels[i]);
+    for (size_t i = 0; i < rig->skin_count; i++) {
+        const struct rig_skin *skin = &rig->skins[i];
+        hash = hash_bytes(hash, skin->joint, skin->joint_count * sizeof *skin->joint);
+        hash = hash_bytes(hash, skin->inverse_bind, skin->joint_count * sizeof *skin->inverse_bind);
+    }
+    for (size_t i = 0; i < rig->mesh_count; i++) hash = hash_mesh(hash, &rig->meshes[i]);
+    return hash;
 }
 
 void rig_mesh_release(struct rig_mesh *mesh)

@@ -68,6 +68,9 @@ bool rig_wind(struct mesh *meshes, const struct rig *rig, struct error *err);
 /* Find drift_m. The model must stand. Err: as rig_pose */
 bool rig_measure_drift(struct rig *rig, struct error *err);
 
+/* Of all that poses follow from. */
+uint64_t rig_hash(uint64_t hash, const struct rig *rig);
+
 void rig_mesh_release(struct rig_mesh *mesh);
 void rig_destroy(struct rig *rig);
 

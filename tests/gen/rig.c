@@ -276,6 +276,32 @@ static void bad_skins_are_refused(void)
     refused(put_skin("bind.gltf", &b, moving_nodes), &as_in_file, "bind.gltf: mesh 0: the position of vertex 0 is not a number", "refuses a matrix that is not of numbers");
 }
 
+/* What poses follow from, changed for a moment: the hash is another one, and then the same again. */
+static void hash_tells(struct rig *rig, double *value, const char *what)
+{
+    double kept = *value;
+    uint64_t before = rig_hash(1, rig);
+    *value += 0.125;
+    uint64_t changed = rig_hash(1, rig);
+    *value = kept;
+    OK(changed != before && rig_hash(1, rig) == before, "the hash of a rig tells of %s", what);
+}
+
+static void hashes_tell_of_animations(void)
+{
+    struct model *m = load(in_folder("top_srcdir", "tests/input/skinned.gltf"), &(struct model_options){ 0 });
+    if (!OK(m && m->rig && m->rig->channel_count > 1 && m->rig->skin_count > 1, "a file of two skins is loaded")) return;
+    struct rig *rig = m->rig;
+    struct rig_channel *last = &rig->channels[rig->channel_count - 1];
+    size_t n = last->keys * (last->path == GLTF_ROTATION ? 4 : 3) * (last->interpolation == GLTF_CUBIC ? 3 : 1);
+    hash_tells(rig, &last->value[n - 1], "the last of its values");
+    hash_tells(rig, &last->time_s[last->keys - 1], "the last of its times");
+    hash_tells(rig, &rig->skins[1].inverse_bind[rig->skins[1].joint_count - 1].a[2][3], "its skins");
+    for (size_t i = 0; i < rig->node_count; i++)
+        if (!rig->nodes[i].has_matrix) hash_tells(rig, &rig->nodes[i].scale[2], "its nodes");
+    model_destroy(m);
+}
+
 int main(void)
 {
     if (!mkdtemp(folder)) return 1;
@@ -286,6 +312,7 @@ int main(void)
     root_motion_is_taken_out();
     skins_are_applied();
     bad_skins_are_refused();
+    hashes_tell_of_animations();
     remove_tree(folder);
     return tap_done();
 }
