@@ -6,6 +6,18 @@
 
 #include <math.h>
 
+/* Hold the ways to MOTION_MAX_PX: beside a camera that passes close by, they have no end. */
+static void hold(struct image *motion)
+{
+    size_t n = (size_t)motion->width_px * (size_t)motion->height_px;
+    float *m = motion->data;
+    for (size_t i = 0; i < n; i++, m += 3) {
+        double length = hypot((double)m[0], (double)m[1]);
+        if (length <= MOTION_MAX_PX) continue;
+        for (int c = 0; c < 2; c++) m[c] = isfinite(length) ? (float)((double)m[c] * MOTION_MAX_PX / length) : 0;
+    }
+}
+
 /* Blur one layer by the motion of each pixel. */
 static bool blur(struct image *layer, const struct image *motion, const struct image *share, struct error *err)
 {
@@ -36,6 +48,7 @@ static bool motion_of(struct image *out, const struct image *motion, const struc
                       struct error *err)
 {
     if (!layer_copy(out, motion, err)) return false;
+    hold(out);
     size_t n = (size_t)motion->width_px * (size_t)motion->height_px, channels = (size_t)layer->channels;
     const float *from = (const float *)layer->data + channel;
     for (size_t i = 0; i < n; i++)

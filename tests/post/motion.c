@@ -95,8 +95,22 @@ static void check_hidden(void)
     scene_release(&s);
 }
 
+static void check_endless(void)
+{
+    const float ways[][2] = { { 3e9f, 0 }, { 0, INFINITY }, { NAN, NAN } };
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+        struct scene s = scene_init(ways[i][0], ways[i][1]);
+        if (!OK(blur(&s, NULL), "a way of %g,%g px", (double)ways[i][0], (double)ways[i][1])) return;
+        float alpha = image_f32(&s.object, 20, 10)[3];
+        if (i == 0) NEAR((double)alpha, 0.5 * 20 / MOTION_MAX_PX, 1e-4, "what passes close by is held to MOTION_MAX_PX");
+        else OK(alpha == 0.5f, "and what has no way stays");
+        scene_release(&s);
+    }
+}
+
 int main(void)
 {
+    check_endless();
     check_ramp();
     check_energy();
     check_rest();
