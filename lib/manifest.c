@@ -143,7 +143,7 @@ static bool walk_samples(struct walk *walk, struct manifest *m)
 static bool walk_exposure(struct walk *walk, struct manifest *m)
 {
     if (!walk_bool(walk, "exposure_given", &m->exposure_given)) return false;
-    if (m->exposure_given) return walk_real(walk, "exposure", &m->exposure, 1e-12, 1e12);
+    if (m->exposure_given) return walk_real(walk, "exposure", &m->exposure, 1e-300, 1e300);
     return walk_samples(walk, m) &&
            (m->exposure_samples > 0 || walk_rect(walk, "exposure_patch_px", &m->exposure_patch_px));
 }
@@ -171,10 +171,10 @@ static bool walk_place(struct walk *walk, struct manifest *m)
 static bool walk_weather(struct walk *walk, struct manifest *m)
 {
     if (!walk_bool(walk, "has_mist", &m->has_mist)) return false;
-    if (m->has_mist && (!walk_real(walk, "visibility_m", &m->visibility_m, 1e-3, 1e9) || !walk_reals(walk, "haze", m->haze, 3)))
+    if (m->has_mist && (!walk_real(walk, "visibility_m", &m->visibility_m, 1e-300, 1e300) || !walk_reals(walk, "haze", m->haze, 3)))
         return false;
     if (!walk_bool(walk, "has_motion", &m->has_motion) || !walk_real(walk, "defocus_px", &m->defocus_px, 0, 1000) ||
-        !walk_real(walk, "focus_m", &m->focus_m, 0, 1e9) || !walk_real(walk, "softness_px", &m->softness_px, 0, 100))
+        !walk_real(walk, "focus_m", &m->focus_m, 0, 1e300) || !walk_real(walk, "softness_px", &m->softness_px, 0, 100))
         return false;
     return m->defocus_px <= 0 || m->focus_m > 0 || walk_wrong(walk, "focus_m", "must be more than 0 where there is a defocus");
 }
