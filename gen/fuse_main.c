@@ -33,8 +33,15 @@ static int usage(const char *what, const char *value)
 static bool add_shot(struct fusion *fusion, const struct scene *scene, const struct scene_shot *shot, struct error *err)
 {
     struct image ids;
+    const struct camera *given = &scene->cameras[shot->camera].camera;
+    int width, height;
+    if (!image_read_size(&width, &height, shot->semantic, err)) return false;
+    double across = (double)width / given->width_px, down = (double)height / given->height_px;
+    if (fabs(across - down) > 0.005 * across)
+        return error_at(err, ERR_INPUT, shot->semantic, 0, 0, "is %d x %d pixels: not in proportion to the camera's %d x %d",
+                        width, height, given->width_px, given->height_px);
     if (!semantic_read(&ids, shot->semantic, scene->palette, err)) return false;
-    struct camera camera = camera_scaled(&scene->cameras[shot->camera].camera, ids.width_px, ids.height_px);
+    struct camera camera = camera_scaled(given, width, height);
     bool ok = fusion_add(fusion, &ids, &camera, shot->world_from_camera, err);
     image_release(&ids);
     return ok;

@@ -9,13 +9,6 @@
 /* Of a face seen at less than this sine a ray beside the entity says little. */
 #define GRAZING 0.01
 
-static bool has_labels(const struct static_mesh *place)
-{
-    for (size_t i = 0; i < static_mesh_triangle_count(place); i++)
-        if (static_mesh_label(place, (uint32_t)i) >= 0) return true;
-    return false;
-}
-
 bool backdrop_init(struct backdrop *backdrop, const struct static_mesh *place, const struct camera *camera,
                    struct pose world_from_camera, struct error *err)
 {
@@ -25,7 +18,7 @@ bool backdrop_init(struct backdrop *backdrop, const struct static_mesh *place, c
                                    .pixel_rad = 1 / fmin(in.fx_px, in.fy_px), .width_px = camera->width_px };
     if (!image_init(&backdrop->range, camera->width_px, camera->height_px, 1, PIXEL_F32, err) ||
         !image_init(&backdrop->depth, camera->width_px, camera->height_px, 1, PIXEL_F32, err) ||
-        (has_labels(place) && !image_init(&backdrop->label, camera->width_px, camera->height_px, 1, PIXEL_U8, err)))
+        (static_mesh_has_labels(place) && !image_init(&backdrop->label, camera->width_px, camera->height_px, 1, PIXEL_U8, err)))
         return false;
     backdrop->triangle = malloc(width * height * sizeof *backdrop->triangle);
     backdrop->direction = malloc(width * sizeof *backdrop->direction);
