@@ -9,6 +9,7 @@
 #include "gen/trace/plane_depth.h"
 #include "gen/world/prism.h"
 #include "gen/world/receiver.h"
+#include "gen/world/shading.h"
 #include "gen/world/surroundings.h"
 #include "lib/file.h"
 #include "lib/manifest.h"
@@ -329,7 +330,9 @@ static bool write_background(const struct frame *f, struct error *err)
  * Out: path of the include, relative to the output folder */
 static bool write_place(char path[64], struct plane *below, const struct frame *f, struct error *err)
 {
-    struct static_cut receivers = { 0 }, shades = { 0 };
+    struct static_cut receivers = { 0 }, around = { 0 }, shades = { 0 }, rest = { 0 };
+    struct vec3 *lights = NULL;
+    size_t light_count = 0;
     struct prism *near = calloc(f->around.n + 1, sizeof *near), *above = calloc(f->around.shade_count + 1, sizeof *above);
     size_t near_count = 0, above_count = 0, per_entity = f->around.n ? f->around.shade_count / f->around.n : 0;
     bool ok = (near && above) || error_set(err, ERR_MEMORY, "no memory for the place");
@@ -339,18 +342,23 @@ static bool write_place(char path[64], struct plane *below, const struct frame *
         for (size_t k = 0; k < per_entity; k++) above[above_count++] = f->around.shades[i * per_entity + k];
     }
     ok = ok && static_mesh_cut(f->stage->mesh, &receivers, near, near_count, err) &&
-         static_mesh_cut(f->stage->mesh, &shades, above, above_count, err);
+         static_mesh_cut(f->stage->mesh, &around, above, above_count, err) &&
+         pass_lights(&lights, &light_count, f->scene, f->context->light, err) &&
+         shading_part(&shades, &rest, &around, &receivers, lights, light_count, err);
     snprintf(path, 64, "frames/%s/place.inc", f->name);
     char *file = string_format("%s/place.inc", f->folder);
     ok = ok && (file || error_set(err, ERR_MEMORY, "no memory for a path")) &&
-         place_include_write(file, &receivers, &shades, err);
+         place_include_write(file, &receivers, &shades, &rest, err);
     double lowest = INFINITY;
     for (size_t i = 0; i < f->moment.n; i++)
         if (f->matters[i]) lowest = fmin(lowest, f->moment.entities[i].world_from_entity.translation.z);
     for (size_t i = 0; i < receivers.vertices; i++) lowest = fmin(lowest, (double)receivers.position_m[i][2]);
     *below = (struct plane){ vec3(0, 0, 1), lowest - 0.5 };
     static_cut_release(&receivers);
+    static_cut_release(&around);
     static_cut_release(&shades);
+    static_cut_release(&rest);
+    free(lights);
     free(file);
     free(near);
     free(above);

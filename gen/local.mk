@@ -83,6 +83,7 @@ gen_libgen_a_SOURCES = \
   %D%/world/ribbon_lay.c \
   %D%/world/road.c %D%/world/road.h \
   %D%/world/road_tags.c %D%/world/road_tags.h \
+  %D%/world/shading.c %D%/world/shading.h \
   %D%/world/static_color.c \
   %D%/world/static_cut.c \
   %D%/world/static_mesh.c %D%/world/static_mesh.h %D%/world/static_mesh_impl.h \

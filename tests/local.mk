@@ -181,6 +181,11 @@ tests_gen_path_test_SOURCES = %D%/gen/path.c %D%/tap.h
 nodist_EXTRA_tests_gen_path_test_SOURCES = dummy.cxx
 tests_gen_path_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/shading.test
+tests_gen_shading_test_SOURCES = %D%/gen/shading.c %D%/tap.h
+nodist_EXTRA_tests_gen_shading_test_SOURCES = dummy.cxx
+tests_gen_shading_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/static_mesh.test
 tests_gen_static_mesh_test_SOURCES = %D%/gen/static_mesh.c %D%/tap.h
 nodist_EXTRA_tests_gen_static_mesh_test_SOURCES = dummy.cxx

@@ -39,6 +39,25 @@ bool sky_map_write(char path[SKY_MAP_SIZE], const char *out_folder, const struct
     return ok;
 }
 
+bool pass_lights(struct vec3 **towards, size_t *n, const struct scene *scene, const struct light *light, struct error *err)
+{
+    struct pass_settings settings = pass_settings(scene->quality, scene->sky);
+    size_t count = settings.sky_lights * (settings.soft_sky_lights ? 8 : 1);
+    struct sky_light *sky = calloc(count, sizeof *sky);
+    struct vec3 *directions = calloc(count + 1, sizeof *directions);
+    bool ok = (sky && directions) || error_set(err, ERR_MEMORY, "no memory for the sky's lights");
+    if (ok) {
+        light_sample_sky(sky, count, light);
+        for (size_t i = 0; i < count; i++) directions[i] = sky[i].direction;
+        if (light->has_sun) directions[count++] = light->sun_direction;
+        *towards = directions;
+        *n = count;
+    } else
+        free(directions);
+    free(sky);
+    return ok;
+}
+
 /* How the sky lights a pass: by radiosity; by lights, with or without something in their way. */
 enum lights { LIGHTS_RADIOSITY, LIGHTS_OPEN, LIGHTS_SHADED };
 

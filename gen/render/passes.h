@@ -25,6 +25,10 @@ struct pass_settings {
 };
 struct pass_settings pass_settings(enum quality quality, enum sky_kind sky);
 
+/* Where the light of the plane and shadow passes comes from: sun and sky, areas of it by many directions.
+ * Out: *towards (*n) unit, the caller's */
+bool pass_lights(struct vec3 **towards, size_t *n, const struct scene *scene, const struct light *light, struct error *err);
+
 /* Write the light's sky map under a name made from its content, unless it is there.
  * Out: path, relative to the output folder */
 #define SKY_MAP_SIZE 40

@@ -69,7 +69,7 @@ static void write_cut(struct sdl *sdl, const char *name, const struct static_cut
 }
 
 bool place_include_write(const char *path, const struct static_cut *receivers, const struct static_cut *shades,
-                         struct error *err)
+                         const struct static_cut *rest, struct error *err)
 {
     struct vec3 *normal = NULL;
     if (!smooth_normals(&normal, receivers, err)) return false;
@@ -78,6 +78,7 @@ bool place_include_write(const char *path, const struct static_cut *receivers, c
     sdl_header(&sdl, "the place round the entities of a frame, and what can shade it: metres, world");
     write_cut(&sdl, "Receivers", receivers, normal);
     write_cut(&sdl, "Shades", shades, NULL);
+    write_cut(&sdl, "Rest", rest, NULL);
     bool ok = sdl_write(&sdl, path, err);
     sdl_release(&sdl);
     free(normal);

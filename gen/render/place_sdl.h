@@ -7,9 +7,10 @@
 
 #include <stdbool.h>
 
-/* Declares Receivers (what is round the entities, smooth normals) and Shades (what can shade it).
+/* Declares Receivers (what is round the entities, smooth normals), Shades (what of the place shades them) and
+ * Rest (what shades the entities at most).
  * Err: ERR_IO, ERR_MEMORY */
 bool place_include_write(const char *path, const struct static_cut *receivers, const struct static_cut *shades,
-                         struct error *err);
+                         const struct static_cut *rest, struct error *err);
 
 #endif
