@@ -199,12 +199,15 @@ static bool write_plane_depth(const struct frame *f, struct error *err)
 static bool trace(struct frame *f, struct error *err)
 {
     struct trace_input in = trace_input(f);
+    char time[UTC_TEXT_SIZE] = "";
+    if (f->scene->has_time) utc_time_text(time, f->scene->time_utc, f->shot->time_s);
     struct label_context context = {
         .frame = f->name, .photograph = f->photograph[0] ? f->photograph : NULL, .camera = f->camera,
         .world_from_camera = f->shot->world_from_camera,
         .has_sun = f->context->light->has_sun, .sun_direction = f->context->light->sun_direction,
         .entities = f->moment.entities, .entity_count = f->moment.n,
-        .time_s = f->scene->has_times ? f->shot->time_s : NAN, .velocity_m_s = f->scene->has_times ? f->moment.velocity_m_s : NULL,
+        .time = time[0] ? time : NULL, .time_s = f->scene->has_times ? f->shot->time_s : NAN,
+        .velocity_m_s = f->scene->has_times ? f->moment.velocity_m_s : NULL,
         .palette = f->scene->palette,
     };
     if (!trace_frame(&f->labels, f->context->tracer, &in, err)) return false;

@@ -3,6 +3,7 @@
 #include <erfa.h>
 #include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 
 #define RAD_FROM_DEG (M_PI / 180)
@@ -117,6 +118,28 @@ const char *utc_time_parse(struct utc_time *utc, const char *text)
     return NULL;
 }
 
+double utc_time_since(struct utc_time later, struct utc_time earlier)
+{
+    const struct utc_time *t[2] = { &later, &earlier };
+    double days[2], seconds[2];
+    for (int i = 0; i < 2; i++) {
+        double zero;
+        eraCal2jd(t[i]->year, t[i]->month, t[i]->day, &zero, &days[i]);
+        seconds[i] = t[i]->hour * 3600.0 + t[i]->minute * 60.0 + t[i]->second;
+    }
+    return (days[0] - days[1]) * 86400 + (seconds[0] - seconds[1]);
+}
+
+void utc_time_text(char text[UTC_TEXT_SIZE], struct utc_time utc, double later_s)
+{
+    const long long day_ms = 86400000;
+    long long ms = llround((utc.hour * 3600.0 + utc.minute * 60.0 + utc.second + later_s) * 1000);
+    for (; ms >= day_ms; ms -= day_ms) next_day(&utc);
+    for (; ms < 0; ms += day_ms) previous_day(&utc);
+    snprintf(text, UTC_TEXT_SIZE, "%04d-%02d-%02dT%02d:%02d:%02d.%03dZ", utc.year, utc.month, utc.day, (int)(ms / 3600000),
+             (int)(ms / 60000 % 60), (int)(ms / 1000 % 60), (int)(ms % 1000));
+}
+
 /* --- position --- */
 
 /* By how much the air lifts the sun. Below the point where the upper limb has set
@@ -129,18 +152,6 @@ static double refraction_rad(double elevation_rad, struct atmosphere air)
     if (e_deg < -(sun_radius_deg + horizon_refraction_deg)) return 0;
     return air.pressure_hpa / 1010 * 283 / (273 + air.temperature_c)
            * 1.02 / (60 * tan((e_deg + 10.3 / (e_deg + 5.11)) * RAD_FROM_DEG)) * RAD_FROM_DEG;
-}
-
-double utc_time_since(struct utc_time later, struct utc_time earlier)
-{
-    const struct utc_time *t[2] = { &later, &earlier };
-    double days[2], seconds[2];
-    for (int i = 0; i < 2; i++) {
-        double zero;
-        eraCal2jd(t[i]->year, t[i]->month, t[i]->day, &zero, &days[i]);
-        seconds[i] = t[i]->hour * 3600.0 + t[i]->minute * 60.0 + t[i]->second;
-    }
-    return (days[0] - days[1]) * 86400 + (seconds[0] - seconds[1]);
 }
 
 bool sun_position(struct sun_position *sun, struct utc_time utc, double dut1_s, struct geodetic place,

@@ -18,6 +18,10 @@ const char *utc_time_parse(struct utc_time *utc, const char *text);
 /* Seconds from one moment to a later one; leap seconds are not counted. */
 double utc_time_since(struct utc_time later, struct utc_time earlier);
 
+/* A moment so many seconds later, to the millisecond: "2021-05-01T14:53:40.500Z". */
+#define UTC_TEXT_SIZE 40
+void utc_time_text(char text[UTC_TEXT_SIZE], struct utc_time utc, double later_s);
+
 struct geodetic { double latitude_rad, longitude_rad, height_m; }; /* WGS 84, ellipsoidal height */
 
 /* Pressure 0 leaves refraction out. Pressure is that of the place, not reduced to sea level. */

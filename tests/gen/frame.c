@@ -117,7 +117,7 @@ static void test_shade_that_moves(void)
 static void test_end_of_path(void)
 {
     char *head = fixed(", rate_hz: 1");
-    static const char rest[] = "static: {mesh: %s.ply}\nexposure: {value: 1}\n"
+    static const char rest[] = "time: 2021-05-01T10:53:40-04:00\nstatic: {mesh: %s.ply}\nexposure: {value: 1}\n"
                                "paths: [{name: way, use: vehicles, width_m: 3, points_m: [[-10, 0], [10, 0]]}]\n"
                                "entities: [{name: e, model: box, path: way, start_m: %s, speed_m_s: 6}]";
     static const struct { const char *mesh, *start; double velocity[3]; const char *what; } cases[] = {
@@ -129,6 +129,12 @@ static void test_end_of_path(void)
         char text[512];
         snprintf(text, sizeof text, rest, cases[i].mesh, cases[i].start);
         if (!OK(makes(head, text), "a frame of a path")) continue;
+        char *path = of_frame("labels.json");
+        json_t *root = json_load_file(path, 0, NULL);
+        const char *time = json_string_value(json_object_get(root, "time"));
+        OK(time && !strcmp(time, "2021-05-01T14:53:40.000Z"), "the labels have the shot's time: %s", time ? time : "none");
+        json_decref(root);
+        free(path);
         json_t *entity = labels(), *velocity = json_object_get(entity, "velocity_m_s");
         for (size_t k = 0; k < 3; k++)
             NEAR(json_number_value(json_array_get(velocity, k)), cases[i].velocity[k], 0.02, "%s: %c", cases[i].what, "xyz"[k]);

@@ -276,8 +276,28 @@ static void check_bad_times(void)
     }
 }
 
+static void check_time_texts(void)
+{
+    static const struct { const char *from; double later_s; const char *want; } texts[] = {
+        { "2021-05-01T14:53:40.25Z", 0, "2021-05-01T14:53:40.250Z" },
+        { "2016-06-23T16:31:59-05:00", 7, "2016-06-23T21:32:06.000Z" },
+        { "2020-02-28T23:59:59.5Z", 0.5, "2020-02-29T00:00:00.000Z" },
+        { "2019-12-31T23:00:00Z", 90000, "2020-01-02T00:00:00.000Z" },
+        { "2021-01-01T00:00:00Z", -0.001, "2020-12-31T23:59:59.999Z" },
+        { "2021-01-01T00:00:59.9996Z", 0, "2021-01-01T00:01:00.000Z" },
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        struct utc_time t;
+        char text[UTC_TEXT_SIZE];
+        utc_time_parse(&t, texts[i].from);
+        utc_time_text(text, t, texts[i].later_s);
+        OK(!strcmp(text, texts[i].want), "%g s after %s it is %s", texts[i].later_s, texts[i].from, text);
+    }
+}
+
 int main(void)
 {
+    check_time_texts();
     check_published();
     check_photographs();
     check_behaviour();
