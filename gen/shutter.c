@@ -4,10 +4,10 @@
 
 #include <stdlib.h>
 
-/* Is one shot as far on the way of the other's camera as its time is? New views are on nobody's way. */
-static bool is_on_one_way(const struct scene *scene, const struct scene_shot *a, const struct scene_shot *b)
+/* Did one camera take both, the one on its way to the other? A new view is on nobody's way. */
+static bool is_on_one_way(const struct scene_shot *a, const struct scene_shot *b)
 {
-    return a->camera == b->camera && a->time_s != b->time_s && (scene->video || (a->photograph && b->photograph));
+    return a->camera == b->camera && a->time_s != b->time_s && a->photograph && b->photograph;
 }
 
 /* The shot that the camera comes to from this one, or came from. NULL: there is none, or it stays. */
@@ -15,8 +15,8 @@ static const struct scene_shot *neighbour(const struct scene *scene, const struc
 {
     const struct scene_shot *next = shot + 1, *last = scene->shots + scene->shot_count;
     if (scene->fixed_camera || !scene->has_times) return NULL;
-    if (next < last && is_on_one_way(scene, shot, next)) return next;
-    return shot > scene->shots && is_on_one_way(scene, shot, shot - 1) ? shot - 1 : NULL;
+    if (next < last && is_on_one_way(shot, next)) return next;
+    return shot > scene->shots && is_on_one_way(shot, shot - 1) ? shot - 1 : NULL;
 }
 
 /* The camera when the shutter closes: on its way to the next shot, or on from the one before. */
