@@ -1,6 +1,7 @@
 #!/bin/sh
 # The real programs from scene file to dataset: the same pictures however a run went.
 . "$top_srcdir/tests/tap.sh"
+. "$top_srcdir/tests/run/same-dataset.sh"
 staffage=$top_builddir/staffage
 cp "$top_srcdir"/tests/input/* "$top_builddir/tests/run/same-pixels" .
 
@@ -8,18 +9,6 @@ for i in 1 2 3; do cp street.png "street$i.png"; done
 sed 's/files: .*/files: [street1.png, street2.png, street3.png]}/' minimal.yaml >street.yaml
 echo 'quality: draft' >>street.yaml
 
-# same_dataset A B: every picture decodes to the same pixels, every label file has the same bytes.
-same_dataset() {
-    ( cd "$1" && find . -path ./frames/home -prune -o -type f -print | sort ) >names
-    ( cd "$2" && find . -path ./frames/home -prune -o -type f -print | sort ) >others
-    cmp names others || return 1
-    while read -r name; do
-        case $name in
-        *.png|*.exr) ./same-pixels "$1/$name" "$2/$name" ;;
-        *) cmp "$1/$name" "$2/$name" ;;
-        esac || return 1
-    done <names
-}
 stamps() { find "$1" -printf '%p %T@ %i\n' | sort; }
 passes() { find "$1/frames" -name object.exr -o -name plane.exr -o -name shadow.exr 2>/dev/null | wc -l; }
 

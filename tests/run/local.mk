@@ -1,11 +1,22 @@
 # What people type, and how frames run.
-EXTRA_DIST += tests/tap.sh tests/run/stand-in-gen tests/run/stand-in-post
-EXTRA_PROGRAMS = tests/run/compare-masks tests/run/same-pixels tests/run/write-makefile
+EXTRA_DIST += tests/tap.sh tests/run/same-dataset.sh tests/run/stand-in-gen tests/run/stand-in-post
+EXTRA_PROGRAMS = tests/run/compare-changes tests/run/compare-frame tests/run/compare-masks tests/run/make-place tests/run/project-box \
+  tests/run/same-pixels tests/run/write-makefile
 CLEANFILES += $(EXTRA_PROGRAMS)
 check_DATA = $(EXTRA_PROGRAMS)
+tests_run_compare_changes_SOURCES = %D%/compare-changes.c
+nodist_EXTRA_tests_run_compare_changes_SOURCES = dummy.cxx
+tests_run_compare_changes_LDADD = $(LIB_LIBS)
+tests_run_compare_frame_SOURCES = %D%/compare-frame.c
+nodist_EXTRA_tests_run_compare_frame_SOURCES = dummy.cxx
+tests_run_compare_frame_LDADD = $(LIB_LIBS)
 tests_run_compare_masks_SOURCES = %D%/compare-masks.c
 nodist_EXTRA_tests_run_compare_masks_SOURCES = dummy.cxx
 tests_run_compare_masks_LDADD = $(LIB_LIBS)
+tests_run_make_place_SOURCES = %D%/make-place.c
+tests_run_make_place_LDADD = -lm
+tests_run_project_box_SOURCES = %D%/project-box.c
+tests_run_project_box_LDADD = $(JANSSON_LIBS) -lm
 tests_run_same_pixels_SOURCES = %D%/same-pixels.c
 nodist_EXTRA_tests_run_same_pixels_SOURCES = dummy.cxx
 tests_run_same_pixels_LDADD = $(LIB_LIBS)
@@ -18,7 +29,7 @@ tests_gen_makefile_test_SOURCES = tests/gen/makefile.c tests/tap.h
 nodist_EXTRA_tests_gen_makefile_test_SOURCES = dummy.cxx
 tests_gen_makefile_test_LDADD = $(GEN_LIBS)
 
-dist_check_SCRIPTS += tests/run.sh tests/pipeline.sh tests/man.sh tests/masks.sh
+dist_check_SCRIPTS += tests/run.sh tests/pipeline.sh tests/flight.sh tests/man.sh tests/masks.sh
 
 EXTRA_DIST += tests/bench.sh tests/bench/craig-1000x750-4.yaml tests/bench/craig-2000x1500-15.yaml \
   tests/bench/labels/craig-3840x2880-20.yaml
