@@ -78,7 +78,7 @@ static bool add_entity(struct moment *moment, const struct stage *stage, size_t 
         return error_prefix(err, "entity \"%s\": ", e->name);
     }
     moment->velocity_m_s[moment->n] = velocity(entity, speed, heading);
-    if (!pose_entity(moment, stage, fabs(way_m), 0, time_s, err)) return false;
+    if (!pose_entity(moment, stage, e->speed_m_s < 0 ? -way_m : way_m, 0, time_s, err)) return false;
     moment->n++;
     return true;
 }

@@ -54,7 +54,7 @@ flight() {
         shot "$2" "$3" "$4" "$(echo "$1" | sed "s/NNNNNN/00000$number/g")"
     done
 }
-elsewhere() { shot 5 '-20, 20, 17' '-2, 0, 0'; }
+elsewhere() { shot 5 '6, -24, 17' '1, -3, 0'; }
 cast() {
     cat <<'YAML'
 entities:

@@ -146,6 +146,11 @@ tests_gen_polygon_test_SOURCES = %D%/gen/polygon.c %D%/tap.h
 nodist_EXTRA_tests_gen_polygon_test_SOURCES = dummy.cxx
 tests_gen_polygon_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/moment.test
+tests_gen_moment_test_SOURCES = %D%/gen/moment.c %D%/gen/model_files.h %D%/tap.h
+nodist_EXTRA_tests_gen_moment_test_SOURCES = dummy.cxx
+tests_gen_moment_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/trace.test
 tests_gen_trace_test_SOURCES = %D%/gen/trace.c %D%/gen/solid.h %D%/tap.h
 nodist_EXTRA_tests_gen_trace_test_SOURCES = dummy.cxx
