@@ -82,6 +82,22 @@ static struct plane local_ground(const struct frame *f, const struct entity *ent
     return (struct plane){ normal, vec3_dot(normal, entity->world_from_entity.translation) };
 }
 
+/* Does the place keep the sun from ground round an entity? */
+static bool shaded_around(const struct frame *f, const struct entity *entity)
+{
+    enum { ROUND = 16 };
+    static const double off_ground_m = 0.3;
+    const struct vec3 size = vec3_sub(entity->model->max_m, entity->model->min_m), sun = f->context->light->sun_direction;
+    double radius = hypot(size.x, size.y) / 2 + size.z;
+    if (!f->stage->mesh || !f->context->light->has_sun) return false;
+    for (int k = 0; k < ROUND; k++) {
+        double angle = 2 * M_PI * k / ROUND;
+        struct vec3 p = pose_apply(entity->world_from_entity, vec3(radius * cos(angle), radius * sin(angle), off_ground_m));
+        if (static_mesh_blocks(f->stage->mesh, p, sun, 0, 1000)) return true;
+    }
+    return false;
+}
+
 static bool set_stage(struct frame *f, struct error *err)
 {
     const struct scene *s = f->scene;
@@ -92,7 +108,9 @@ static bool set_stage(struct frame *f, struct error *err)
     if (!f->receivers || !f->occluders || !f->matters) return error_set(err, ERR_MEMORY, "no memory for a frame");
     for (size_t i = 0; i < f->moment.n; i++) {
         struct plane ground = local_ground(f, &f->moment.entities[i]);
-        if (!receiver_create(&f->receivers[i], &f->moment.entities[i], &ground, f->context->light, err)) return false;
+        if (!receiver_create(&f->receivers[i], &f->moment.entities[i], &ground, f->context->light,
+                             shaded_around(f, &f->moment.entities[i]), err))
+            return false;
     }
     struct vec3 min_m, max_m = { 0, 0, 0 };
     if (f->stage->mesh) static_mesh_bounds(f->stage->mesh, &min_m, &max_m);

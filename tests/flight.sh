@@ -37,11 +37,11 @@ models:
 YAML
 }
 
-# shot SECOND EYE TARGET [MORE]: a shot; a new view without MORE.
+# shot SECOND EYE TARGET [MORE]: a shot; without a photograph in MORE a new view.
 shot() {
     echo "  - {camera: drone, time: 2022-06-01T15:00:0$1+02:00, pose: {look_at: {position_m: [$2], target_m: [$3]}}${4-}}"
 }
-# flight EXTRA NUMBERS...: the flight's shots, EXTRA with NNNNNN replaced.
+# flight MORE: the flight's shots; NNNNNN stands for the number of each.
 flight() {
     echo 'shots:'
     for number in 0 1 2 3; do
@@ -138,7 +138,7 @@ check "killed with -9: in the middle" test ! -e killed/rgb/000003.png
 run "$staffage" run flight.yaml -o killed -j 2
 check "killed and run again: the same as undisturbed" same_dataset one killed
 
-# with NAME YAML: the flight's first frame, with more keys.
+# with NAME YAML REACH: the flight's first frame, with more keys; compare-changes goes to figures.
 with() {
     { cat flight.yaml; echo "$2"; } >"$1.yaml"
     run "$staffage" run "$1.yaml" -o "$1" --frames 0:1
@@ -177,6 +177,7 @@ run "$staffage" run view.yaml -o view
 ./compare-frame view 000000 before/rgb/000004.png before/semantic/000004.png before/depth/000004.exr >figures
 check "a new view of it, with traffic: picture, depth, classes" \
     test $status = 0 -a -s view/rgb/000000.png -a "$(figure semantic 2)" -gt 300
+check "its picture is the mesh's own where the passes change nothing, bit for bit" test "$(figure rgb 3)" -gt 1000 -a "$(figure rgb 4)" = 0
 check "its classes are those of the place for 97 of 100 pixels" test "$(figure semantic 3)" -lt 1728
 
 # Table I.

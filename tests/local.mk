@@ -62,15 +62,35 @@ tests_gen_ribbon_test_SOURCES = %D%/gen/ribbon.c %D%/tap.h
 nodist_EXTRA_tests_gen_ribbon_test_SOURCES = dummy.cxx
 tests_gen_ribbon_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/place_sdl.test
+tests_gen_place_sdl_test_SOURCES = %D%/gen/place_sdl.c %D%/gen/place.h %D%/gen/solid.h %D%/tap.h
+nodist_EXTRA_tests_gen_place_sdl_test_SOURCES = dummy.cxx
+tests_gen_place_sdl_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/plane_depth.test
+tests_gen_plane_depth_test_SOURCES = %D%/gen/plane_depth.c %D%/tap.h
+nodist_EXTRA_tests_gen_plane_depth_test_SOURCES = dummy.cxx
+tests_gen_plane_depth_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/road.test
 tests_gen_road_test_SOURCES = %D%/gen/road.c %D%/tap.h
 nodist_EXTRA_tests_gen_road_test_SOURCES = dummy.cxx
 tests_gen_road_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/sunlit.test
+tests_gen_sunlit_test_SOURCES = %D%/gen/sunlit.c %D%/gen/place.h %D%/tap.h
+nodist_EXTRA_tests_gen_sunlit_test_SOURCES = dummy.cxx
+tests_gen_sunlit_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/surface.test
 tests_gen_surface_test_SOURCES = %D%/gen/surface.c %D%/tap.h
 nodist_EXTRA_tests_gen_surface_test_SOURCES = dummy.cxx
 tests_gen_surface_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/surroundings.test
+tests_gen_surroundings_test_SOURCES = %D%/gen/surroundings.c %D%/gen/solid.h %D%/tap.h
+nodist_EXTRA_tests_gen_surroundings_test_SOURCES = dummy.cxx
+tests_gen_surroundings_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/sun.test
 tests_gen_sun_test_SOURCES = %D%/gen/sun.c %D%/tap.h

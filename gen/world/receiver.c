@@ -35,13 +35,13 @@ static size_t convex_hull(struct vec3 *hull, struct vec3 *points, size_t n)
 }
 
 bool receiver_create(struct receiver *receiver, const struct entity *entity, const struct plane *ground,
-                     const struct light *light, struct error *err)
+                     const struct light *light, bool shaded, struct error *err)
 {
     struct vec3 corners[8], points[POINTS_MAX], hull[2 * POINTS_MAX];
     size_t n = 0;
     entity_corners(corners, entity);
     /* Where the sun shines, the sky's share of the light is small, and so is what is taken of it. */
-    double reach = (light->has_sun ? 1.2 : 2.5) * (entity->model->max_m.z - entity->model->min_m.z);
+    double reach = (light->has_sun && !shaded ? 1.2 : 2.5) * (entity->model->max_m.z - entity->model->min_m.z);
     for (int i = 0; i < 8; i++) {
         for (int k = 0; k < ROUND; k++) {
             double angle = 2 * M_PI * k / ROUND;

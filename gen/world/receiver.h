@@ -19,10 +19,11 @@ struct receiver {
 };
 
 /* The ground around an entity as far as it takes away more than about a hundredth of the light
- * (2.5 times its height under an overcast sky), together with its shadow in the sun.
+ * (2.5 times its height where only the sky lights it), together with its shadow in the sun.
+ * In:  shaded: something keeps the sun from part of that ground
  * Err: ERR_MEMORY */
 bool receiver_create(struct receiver *receiver, const struct entity *entity, const struct plane *ground,
-                     const struct light *light, struct error *err);
+                     const struct light *light, bool shaded, struct error *err);
 void receiver_release(struct receiver *receiver);
 /* Is a ground point within it, seen from above? */
 bool receiver_contains(const struct receiver *receiver, struct vec3 p_m);
