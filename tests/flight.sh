@@ -113,7 +113,7 @@ check "half behind a wall: what is hidden and what is seen add up" awk -F '[:,]'
     END { exit !(all > 0 && seen + hidden == all) }' half
 check "half behind a wall: its edge is soft in the picture" awk '$1 == "soft" { soft += $3 } END { exit !(soft >= 10) }' all
 { begin place.ply "$mesh_pose"; echo 'exposure: {roads: true}'; flight "$taken" | sed -n 1,2p
-  echo 'entities: [{name: behind, model: sedan, at: {world_m: [-12, 20]}, heading_deg: 45}]'; } >hidden.yaml
+  echo 'entities: [{name: behind, model: sedan, at: {world_m: [-14, 21]}, heading_deg: 45}]'; } >hidden.yaml
 run "$staffage" run hidden.yaml -o hidden
 check "wholly hidden, with its shadow: no pass is rendered" \
     test $status = 0 -a "$(find hidden/frames \( -name '*.pov' -o -name object.exr \) | wc -l)" = 0
