@@ -288,6 +288,31 @@ static bool sample_roads(struct manifest *m, const struct frame *f, struct error
                      "the shot in line %d out", f->name, f->shot->source.line));
 }
 
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Through how much air the ground is seen that the exposure is fitted to: the median of its pixels. */
+static bool measure_exposure_distance(struct manifest *m, const struct frame *f, struct error *err)
+{
+    struct vec2 middle = { (m->exposure_patch_px.x0 + m->exposure_patch_px.x1) / 2.0,
+                           (m->exposure_patch_px.y0 + m->exposure_patch_px.y1) / 2.0 };
+    size_t n = m->exposure_samples ? m->exposure_samples : 1, known = 0;
+    double *range = calloc(n, sizeof *range);
+    if (!range) return error_set(err, ERR_MEMORY, "no memory for a manifest");
+    for (size_t i = 0; i < n; i++) {
+        struct vec3 p;
+        if (seen_ground(&p, f, m->exposure_samples ? m->exposure_sample_px[i] : middle))
+            range[known++] = vec3_norm(vec3_sub(p, f->shot->world_from_camera.translation));
+    }
+    qsort(range, known, sizeof *range, ascending);
+    if (known) m->exposure_distance_m = range[known / 2];
+    free(range);
+    return true;
+}
+
 static bool write_manifest(const struct frame *f, const struct frame_result *result, struct error *err)
 {
     static const char *const transfers[] = { "layers", "ratio", "threshold", "alpha" };
@@ -316,6 +341,10 @@ static bool write_manifest(const struct frame *f, const struct frame_result *res
         return false;
     }
     if (!s->exposure_given && !s->exposure_of_roads) m.exposure_patch_px = patch_px(f);
+    if (s->has_mist && !s->exposure_given && !measure_exposure_distance(&m, f, err)) {
+        free(m.exposure_sample_px);
+        return false;
+    }
     m.entities = calloc(f->moment.n + 1, sizeof *m.entities);
     if (!m.entities) {
         free(m.exposure_sample_px);

@@ -156,6 +156,11 @@ static bool find_course(struct stage *stage, size_t entity, struct error *err)
         const struct way *way = &stage->roads.ways[i];
         if (!strcmp(way->name, e->path)) {
             stage->courses[entity] = way;
+            double length = path_length(&way->path);
+            if (e->start_m > length)
+                return error_set(err, ERR_INPUT, "entity \"%s\": starts at %g m, and path \"%s\" is %.1f m long", e->name,
+                                 e->start_m, e->path, length) ||
+                       stage_fail(stage->scene, e->at_source, err);
             return true;
         }
         nearest_offer(&nearest, e->path, way->name);

@@ -171,7 +171,8 @@ static bool walk_place(struct walk *walk, struct manifest *m)
 static bool walk_weather(struct walk *walk, struct manifest *m)
 {
     if (!walk_bool(walk, "has_mist", &m->has_mist)) return false;
-    if (m->has_mist && (!walk_real(walk, "visibility_m", &m->visibility_m, 1e-300, 1e300) || !walk_reals(walk, "haze", m->haze, 3)))
+    if (m->has_mist && (!walk_real(walk, "visibility_m", &m->visibility_m, 1e-300, 1e300) || !walk_reals(walk, "haze", m->haze, 3) ||
+                        !walk_real(walk, "exposure_distance_m", &m->exposure_distance_m, 0, 1e300)))
         return false;
     if (!walk_bool(walk, "has_motion", &m->has_motion) || !walk_real(walk, "defocus_px", &m->defocus_px, 0, 1000) ||
         !walk_real(walk, "focus_m", &m->focus_m, 0, 1e300) || !walk_real(walk, "softness_px", &m->softness_px, 0, 100))

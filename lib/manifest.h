@@ -48,6 +48,7 @@ struct manifest {
     bool has_mist;              /* entities and their shadows fade with distance */
     double visibility_m;        /* meteorological: contrast falls to 5 % (WMO) */
     double haze[3];             /* colour of the air far away, linear values of the photograph */
+    double exposure_distance_m; /* with mist: from the camera to the ground that the exposure is fitted to */
     bool has_motion;            /* motion.exr is there: F32, 3 channels: pixels right and down that what is seen
                                  * (an entity, or the shade of one) moves while the shutter is open; and 0 */
     double defocus_px;          /* diameter of the blur at infinite distance, in px, 0: none */

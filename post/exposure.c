@@ -146,6 +146,21 @@ bool exposure_fit_samples(struct exposure *exposure, const struct image *photogr
     return true;
 }
 
+bool exposure_clear(struct exposure *exposure, double transmission, const double haze[3],
+                    const double ground_radiance[3], bool white_balance, struct error *err)
+{
+    double own[3];
+    for (int c = 0; c < 3; c++) {
+        own[c] = (exposure->median[c] - haze[c] * (1 - transmission)) / transmission;
+        if (!(own[c] > 0))
+            return error_set(err, ERR_INPUT, "the ground that the exposure is fitted to is darker than the haze before it: "
+                             "weather.haze is too bright, or weather.visibility_m too short");
+    }
+    for (int c = 0; c < 3; c++)
+        exposure->k[c] = white_balance ? own[c] / ground_radiance[c] : luminance(own) / luminance(ground_radiance);
+    return true;
+}
+
 bool exposure_write(const char *path, const struct exposure *e, struct error *err)
 {
     json_t *json = json_pack("{s:[f,f,f], s:b}", "exposure", e->k[0], e->k[1], e->k[2], "fitted", (int)e->fitted);

@@ -35,6 +35,13 @@ bool exposure_fit(struct exposure *exposure, const struct image *photograph, str
 bool exposure_fit_samples(struct exposure *exposure, const struct image *photograph, const struct vec2 *sample_px,
                           size_t n, const double ground_radiance[3], bool white_balance, struct error *err);
 
+/* The same, seen through air: of the medians, the haze's own light is taken away, and what the air
+ * keeps back is given to the rest.
+ * In:  transmission above 0; haze as linear values of the photograph
+ * Err: ERR_INPUT: the ground is not brighter than the haze before it */
+bool exposure_clear(struct exposure *exposure, double transmission, const double haze[3],
+                    const double ground_radiance[3], bool white_balance, struct error *err);
+
 /* As JSON, for people and for the next fit. */
 bool exposure_write(const char *path, const struct exposure *exposure, struct error *err);
 

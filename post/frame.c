@@ -5,6 +5,7 @@
 #include "post/exposure.h"
 #include "post/frame_input.h"
 #include "post/mask.h"
+#include "post/mist.h"
 #include "post/optics.h"
 #include "post/output.h"
 #include "post/semantic.h"
@@ -50,6 +51,9 @@ static bool find_exposure(struct exposure *exposure, const struct frame_input *f
                                     m->white_balance, err);
     else
         fits = exposure_fit(exposure, &f->rgb, m->exposure_patch_px, m->ground_radiance, m->white_balance, err);
+    if (fits && exposure->fitted && m->has_mist)
+        fits = exposure_clear(exposure, mist_transmission(m->visibility_m, m->exposure_distance_m), m->haze, m->ground_radiance,
+                              m->white_balance, err);
     if (!fits) return blame(err, f->photograph);
     char *path = path_in_folder(f, "exposure.json", err);
     bool ok = path && exposure_write(path, exposure, err);

@@ -3,6 +3,7 @@
 #include "lib/file.h"
 #include "post/before.h"
 #include "post/input.h"
+#include "post/mist.h"
 #include "post/resample.h"
 #include "post/window.h"
 
@@ -113,6 +114,17 @@ static bool read_layers(struct frame_input *f, struct error *err)
     return read_ground(f, err) && (!m->has_motion || read_layer_window(&f->motion, f, "motion.exr", 3, PIXEL_F32, err)) && read_passes(f, err);
 }
 
+/* A new view is rendered without the air. */
+static bool veil(struct frame_input *f, struct error *err)
+{
+    const struct manifest *m = &f->manifest;
+    struct image ground;
+    if (!read_layer(&ground, f, "place_depth.exr", 1, PIXEL_F32, err)) return false;
+    mist_veil(&f->rgb, &ground, m->visibility_m, m->haze, &m->camera);
+    image_release(&ground);
+    return true;
+}
+
 bool frame_input_read(struct frame_input *frame, const char *out, const char *name, struct error *err)
 {
     struct frame_input f = { .out = out, .name = name, .folder = string_format("%s/frames/%s", out, name) };
@@ -121,7 +133,7 @@ bool frame_input_read(struct frame_input *frame, const char *out, const char *na
          read_layer(&f.instance, &f, "instance.png", 1, PIXEL_U16, err) &&
          read_layer(&f.depth, &f, "depth.exr", 1, PIXEL_F32, err) &&
          before_semantic(&f.semantic_before, out, &f.manifest, err) && before_depth(&f.depth_before, out, &f.manifest, err) &&
-         (f.manifest.empty || read_layers(&f, err));
+         (!f.manifest.new_view || !f.manifest.has_mist || veil(&f, err)) && (f.manifest.empty || read_layers(&f, err));
     if (ok) *frame = f;
     else frame_input_release(&f);
     return ok;

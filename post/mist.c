@@ -51,3 +51,18 @@ bool mist_fade(struct image *object, struct image *plane, struct image *light, c
     image_release(&ground_z);
     return ok;
 }
+
+void mist_veil(struct image *rgb, const struct image *ground, double visibility_m, const double haze[3],
+               const struct camera *camera)
+{
+    for (int y = 0; y < rgb->height_px; y++)
+        for (int x = 0; x < rgb->width_px; x++) {
+            double distance = metres_per_depth(camera, x, y) * (double)*image_f32(ground, x, y);
+            double t = isfinite(distance) ? mist_transmission(visibility_m, distance) : 0;
+            uint8_t *px = image_u8(rgb, x, y);
+            for (int c = 0; c < 3; c++) {
+                double own = (double)linear_from_srgb((float)px[c] / 255);
+                px[c] = (uint8_t)(srgb_from_linear((float)(own * t + haze[c] * (1 - t))) * 255 + 0.5f);
+            }
+        }
+}

@@ -31,4 +31,10 @@ bool mist_fade(struct image *object, struct image *plane, struct image *light, c
                const struct image *photograph, const struct image *entity, const struct image *ground,
                const struct camera *camera, struct rect window_px, struct error *err);
 
+/* A picture without mist, a new view of the place, as it is with it: J -> J T + A (1 - T), and A where
+ * nothing is known to be.
+ * In/out: rgb (U8, 3 channels, sRGB). In: ground (F32): depth z of all of the picture; haze: A */
+void mist_veil(struct image *rgb, const struct image *ground, double visibility_m, const double haze[3],
+               const struct camera *camera);
+
 #endif

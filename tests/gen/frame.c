@@ -122,7 +122,7 @@ static void test_end_of_path(void)
                                "entities: [{name: e, model: box, path: way, start_m: %s, speed_m_s: 6}]";
     static const struct { const char *mesh, *start; double velocity[3]; const char *what; } cases[] = {
         { "flat", "10", { 6, 0, 0 }, "who is on its way has its velocity" },
-        { "flat", "30", { 0, 0, 0 }, "who came to the end of its path has none" },
+        { "flat", "20", { 0, 0, 0 }, "who came to the end of its path has none" },
         { "slope", "10", { 6, 0, 1.2 }, "uphill it goes up as well" },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

@@ -42,6 +42,7 @@ static struct manifest whole_manifest(void)
         .has_mist = true,
         .visibility_m = 1e4 / 3,
         .haze = { 0.7, 0.8, 0.1 + 0.2 },
+        .exposure_distance_m = 100.0 / 3,
         .has_motion = true,
         .defocus_px = 1 / 3.0,
         .focus_m = 20.5,
@@ -79,7 +80,7 @@ static bool same(const struct manifest *a, const struct manifest *b)
            a->overwrite_below == b->overwrite_below && a->mask_dilated == b->mask_dilated &&
            a->has_shares == b->has_shares && a->new_view == b->new_view && a->has_place == b->has_place &&
            a->has_place_labels == b->has_place_labels && a->palette == b->palette && !strcmp(a->semantic, b->semantic) &&
-           !strcmp(a->depth, b->depth) && a->has_mist == b->has_mist && a->visibility_m == b->visibility_m &&
+           !strcmp(a->depth, b->depth) && a->has_mist == b->has_mist && a->exposure_distance_m == b->exposure_distance_m && a->visibility_m == b->visibility_m &&
            !memcmp(a->haze, b->haze, sizeof a->haze) && a->has_motion == b->has_motion &&
            a->defocus_px == b->defocus_px && a->focus_m == b->focus_m && a->softness_px == b->softness_px &&
            a->exposure_samples == b->exposure_samples &&

@@ -1,5 +1,5 @@
+#include "post/exposure.h"
 #include "post/mist.h"
-
 #include "post/optics.h"
 #include "post/transfer.h"
 
@@ -129,6 +129,36 @@ static void check_entity(void)
     scene_release(&clear);
 }
 
+/* A new view fades as what stands in it does. */
+static void a_view_is_veiled(void)
+{
+    struct camera camera = { .model = CAMERA_PINHOLE, .width_px = 3, .height_px = 1, .params = { 100, 100, 1.5, 0.5 } };
+    struct image rgb, ground;
+    struct error err = ERROR_NONE;
+    if (!image_init(&rgb, 3, 1, 3, PIXEL_U8, &err) || !image_init(&ground, 3, 1, 1, PIXEL_F32, &err)) return;
+    const float z[] = { 0, 50, NAN };
+    memcpy(ground.data, z, sizeof z);
+    for (int i = 0; i < 9; i++) ((uint8_t *)rgb.data)[i] = 200;
+    mist_veil(&rgb, &ground, 100, haze, &camera);
+    double own = (double)linear_from_srgb(200 / 255.0f), half = own * root + haze[1] * (1 - root);
+    NEAR(image_u8(&rgb, 0, 0)[1], 200, 0, "what is right before the lens keeps its colour");
+    NEAR(image_u8(&rgb, 1, 0)[1], 255 * (double)srgb_from_linear((float)half), 0.51, "at half the visibility it has faded by Koschmieder's law");
+    NEAR(image_u8(&rgb, 2, 0)[1], 255 * (double)srgb_from_linear((float)haze[1]), 0.51, "where nothing is, there is haze");
+    image_release(&rgb);
+    image_release(&ground);
+}
+
+/* Ground of 0.3 through air that keeps half of it back, with haze of 0.4 before it, is a pixel of 0.35. */
+static void exposure_looks_through_the_air(void)
+{
+    const double radiance[3] = { 0.15, 0.15, 0.15 }, air[3] = { 0.4, 0.4, 0.4 }, bright[3] = { 0.9, 0.9, 0.9 };
+    struct exposure e = { .fitted = true, .median = { 0.35, 0.35, 0.35 } };
+    struct error err = ERROR_NONE;
+    OK(exposure_clear(&e, 0.5, air, radiance, true, &err), "a haze that the ground is brighter than: %s", err.text);
+    for (int c = 0; c < 3; c++) NEAR(e.k[c], 2, 1e-12, "the ground alone tells the exposure");
+    OK(!exposure_clear(&e, 0.5, bright, radiance, true, &err) && err.code == ERR_INPUT, "a haze brighter than all of it is refused: %s", err.text);
+}
+
 int main(void)
 {
     NEAR(mist_transmission(200, 200), 0.05, 1e-12, "at the visibility a twentieth of the contrast remains");
@@ -137,5 +167,7 @@ int main(void)
     NEAR(mist_transmission(200, (double)NAN), 1, 0, "at no known distance, all");
     check_transfers();
     check_entity();
+    a_view_is_veiled();
+    exposure_looks_through_the_air();
     return tap_done();
 }
