@@ -4,6 +4,7 @@
 #include "gen/render/passes.h"
 
 #include "gen/render/place_sdl.h"
+#include "gen/world/shading.h"
 #include "gen/world/surroundings.h"
 #include "lib/file.h"
 #include "tests/gen/place.h"
@@ -51,7 +52,9 @@ static bool render(struct image pass[3], struct scene *scene, const struct light
     struct error err = ERROR_NONE;
     struct receiver receiver;
     struct surroundings around;
-    struct static_cut receivers = { 0 }, shades = { 0 };
+    struct static_cut receivers = { 0 }, near = { 0 }, shades = { 0 }, rest = { 0 };
+    struct vec3 *lights = NULL;
+    size_t light_count = 0;
     entity->world_from_entity = entity_stand(&flat, vec3(x, 0, 0), M_PI / 4);
     const struct model_include include = model_include(0, entity);
     struct passes p = { .scene = scene, .sky_map = sky_map, .light = light, .world_from_camera = above, .entities = entity,
@@ -60,8 +63,10 @@ static bool render(struct image pass[3], struct scene *scene, const struct light
     bool ok = receiver_create(&receiver, entity, &flat, light, x < 3, &err) &&
               surroundings_create(&around, &receiver, entity, 1, light, 3, &err) &&
               static_mesh_cut(mesh, &receivers, around.receivers, around.n, &err) &&
-              static_mesh_cut(mesh, &shades, around.shades, around.shade_count, &err) &&
-              place_include_write(file, &receivers, &shades, &err) &&
+              static_mesh_cut(mesh, &near, around.shades, around.shade_count, &err) &&
+              pass_lights(&lights, &light_count, scene, light, &err) &&
+              shading_part(&shades, &rest, &near, &receivers, lights, light_count, &err) &&
+              place_include_write(file, &receivers, &shades, &rest, &err) &&
               view_cover(&p.view, &camera, (struct rect){ 0, 0, WIDTH, HEIGHT }, &err) &&
               model_include_write(&include, NULL, out, entity, &err) && passes_write(out, &p, &err);
     for (int i = 0; ok && i < 3; i++) {
@@ -72,7 +77,10 @@ static bool render(struct image pass[3], struct scene *scene, const struct light
     if (!ok) printf("# %s %s; %s/povray.log\n", err.file, err.text, out);
     free(file);
     static_cut_release(&receivers);
+    static_cut_release(&near);
     static_cut_release(&shades);
+    static_cut_release(&rest);
+    free(lights);
     surroundings_release(&around);
     receiver_release(&receiver);
     return ok;
