@@ -236,10 +236,13 @@ tests_gen_place_test_SOURCES = %D%/gen/place.c %D%/tap.h
 nodist_EXTRA_tests_gen_place_test_SOURCES = dummy.cxx
 tests_gen_place_test_LDADD = $(GEN_LIBS)
 
-# make bench runs it.
-EXTRA_PROGRAMS += tests/bench/place.bench
+# make bench runs them.
+EXTRA_PROGRAMS += tests/bench/place.bench tests/bench/resize.bench
 tests_bench_place_bench_SOURCES = %D%/bench/place.c
 nodist_EXTRA_tests_bench_place_bench_SOURCES = dummy.cxx
 tests_bench_place_bench_LDADD = $(GEN_LIBS)
+tests_bench_resize_bench_SOURCES = %D%/bench/resize.c
+nodist_EXTRA_tests_bench_resize_bench_SOURCES = dummy.cxx
+tests_bench_resize_bench_LDADD = $(LIB_LIBS)
 
 TESTS += $(check_PROGRAMS) $(dist_check_SCRIPTS)

@@ -1,6 +1,6 @@
 /* What a place costs by its size: user seconds to load and to index, and to cut twelve cars' surroundings
  * out, medians of five. A mesh of a place is halved along every edge, once and twice, for larger ones.
- * Usage: bench-place MESH.ply UNIT_M FOLDER */
+ * Usage: bench-place MESH.ply UNIT_M FOLDER   writes the larger ones as FOLDER/place-0.ply and place-1.ply */
 #include "gen/world/static_mesh.h"
 #include "lib/file.h"
 
@@ -76,7 +76,8 @@ static struct soup subdivide(const struct static_mesh *mesh, float (*position_m)
     return s;
 }
 
-static bool write_soup(const char *path, const struct soup *s, struct error *err)
+/* In the frame of the mesh that it was made from: a scene can have either. */
+static bool write_soup(const char *path, const struct soup *s, double unit_m, struct error *err)
 {
     FILE *f = fopen(path, "wb");
     if (!f) return error_set(err, ERR_IO, "%s cannot be written", path);
@@ -84,7 +85,9 @@ static bool write_soup(const char *path, const struct soup *s, struct error *err
                "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face %zu\nproperty list uchar int vertex_indices\nend_header\n",
             s->vertices, s->triangles);
     for (size_t i = 0; i < s->vertices; i++) {
-        fwrite(s->position_m[i], sizeof *s->position_m, 1, f);
+        float p[3];
+        for (int k = 0; k < 3; k++) p[k] = (float)((double)s->position_m[i][k] / unit_m);
+        fwrite(p, sizeof p, 1, f);
         fwrite("\x60\x60\x60", 3, 1, f);
     }
     for (size_t i = 0; i < s->triangles; i++) {
@@ -160,10 +163,9 @@ int main(int argc, char **argv)
         if (ok && level < 2) {
             struct soup finer = subdivide(mesh, static_mesh_vertices(mesh));
             path = string_format("%s/place-%d.ply", argv[3], level);
-            ok = path && write_soup(path, &finer, &err);
+            ok = path && write_soup(path, &finer, unit.scale, &err);
             free(finer.position_m);
             free(finer.triangle);
-            unit = (struct similarity){ 1, mat3_identity(), vec3(0, 0, 0) };
         }
         static_mesh_destroy(mesh);
     }

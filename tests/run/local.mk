@@ -34,5 +34,5 @@ dist_check_SCRIPTS += tests/run.sh tests/pipeline.sh tests/flight.sh tests/man.s
 EXTRA_DIST += tests/bench.sh tests/bench/craig-1000x750-4.yaml tests/bench/craig-2000x1500-15.yaml \
   tests/bench/labels/craig-3840x2880-20.yaml
 .PHONY: bench
-bench: all tests/bench/place.bench
+bench: all tests/bench/place.bench tests/bench/resize.bench
 	@top_srcdir='$(abs_top_srcdir)' top_builddir='$(abs_top_builddir)' $(srcdir)/tests/bench.sh
