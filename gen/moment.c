@@ -71,7 +71,8 @@ static bool add_entity(struct moment *moment, const struct stage *stage, size_t 
         p = at.p_m;
         heading = at.heading_rad + (e->speed_m_s < 0 ? M_PI : 0);
         way_m = held - fmin(e->start_m, path_length(path));
-        if (held == s) speed = fabs(e->speed_m_s);
+        bool ahead = e->speed_m_s > 0 ? s < path_length(path) : s > 0;
+        if (ahead && held == s) speed = fabs(e->speed_m_s);
     }
     if (!stand(entity, stage, p, heading, err)) {
         stage_fail(stage->scene, e->at_source, err);
