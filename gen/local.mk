@@ -3,7 +3,9 @@ noinst_LIBRARIES += gen/libgen.a
 gen_libgen_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(TINYGLTF_CFLAGS) $(ASSIMP_CFLAGS) \
   $(ERFA_CFLAGS) $(YAML_CFLAGS) $(JANSSON_CFLAGS) $(READOSM_CFLAGS)
 gen_libgen_a_SOURCES = \
-  %D%/frame.c %D%/frame.h \
+  %D%/frame.c %D%/frame.h %D%/frame_impl.h \
+  %D%/frame_manifest.c \
+  %D%/frame_passes.c \
   %D%/generator.c %D%/generator.h \
   %D%/light/light.c %D%/light/light.h \
   %D%/light/sun.c %D%/light/sun.h \

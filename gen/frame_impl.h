@@ -1,0 +1,36 @@
+/* A frame while it is made: for its own files. */
+#ifndef STAFFAGE_GEN_FRAME_IMPL_H
+#define STAFFAGE_GEN_FRAME_IMPL_H
+
+#include "gen/frame.h"
+#include "gen/moment.h"
+#include "gen/world/receiver.h"
+#include "gen/world/surroundings.h"
+
+struct frame {
+    const struct frame_context *context;
+    const struct scene *scene;      /* the context's */
+    const struct stage *stage;
+    const struct scene_shot *shot;
+    const struct camera *camera;
+    const char *name, *folder, *photograph, *key;
+    struct moment moment;
+    struct receiver *receivers;     /* (moment.n) */
+    struct surroundings around;     /* with a static mesh */
+    struct occluder *occluders;     /* (scene->occluder_count) polygons at the size of the result; owned */
+    struct frame_labels labels;
+    bool *matters;                  /* (moment.n) seen, or shading what is seen */
+    struct image motion;            /* empty: nothing blurs by moving */
+};
+
+/* A pixel position of the scene file, at the size of the result. */
+struct vec2 frame_scaled_px(const struct frame *f, struct vec2 q);
+/* What ground a pixel position of the result shows. */
+bool frame_ground_at(struct vec3 *p_m, const struct frame *f, struct vec2 q_px);
+
+/* The manifest, the last file of a frame: frame_manifest.c */
+bool frame_write_manifest(const struct frame *f, const struct frame_result *result, struct error *err);
+/* What POV-Ray renders, in a view: frame_passes.c */
+bool frame_write_passes(struct frame *f, const struct view *view, struct error *err);
+
+#endif
