@@ -149,7 +149,7 @@ same_labels() {
     ( cd "$1" && find . -path ./frames -prune -o -path ./rgb -prune -o -name '*000000*' -type f -print -o -path '*/000000/*' -type f -print ) >names
     test "$(wc -l <names)" -ge 8 && same_files one "$1" <names
 }
-with mist 'weather: {visibility_m: 60, haze: "#c4ccd4"}' 1
+with mist 'weather: {visibility_m: 300, haze: "#8a9096"}' 1
 check "mist: a frame, otherwise than without" test $status = 0 -a "$(changes 3)" -gt 1000
 check "mist: nothing that was still changes" is "$(changes 5)" 0
 check "mist: the same labels" same_labels mist
