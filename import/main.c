@@ -9,18 +9,21 @@
 
 #include <ctype.h>
 #include <getopt.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static const char help[] =
     "Usage: staffage-import colmap|opensfm|nerfstudio DIR -o SCENE.yaml [option ...]\n"
     "Write the scene file of a flight from what a structure-from-motion tool left in DIR.\n"
     "\n"
     "  -o, --output SCENE.yaml  the scene file; one that is there is not overwritten\n"
-    "      --images FOLDER      where the photographs lie (in DIR or beside it)\n"
-    "      --mesh FILE          the place as a mesh, in the reconstruction's frame\n"
-    "      --roads FILE         a map by OpenStreetMap\n"
+    "      --images FOLDER      where the photographs lie (without: in DIR, in a folder images\n"
+    "                           in it, or likewise in the two folders above)\n"
+    "      --mesh FILE          the place as a mesh (.ply, .obj), in the reconstruction's frame\n"
+    "      --roads FILE         a map by OpenStreetMap (.osm, .osm.pbf)\n"
     "      --georeference WAY   gps: by the photographs' EXIF; none: the frame as it is;\n"
     "                           or a file of control points, one a line:\n"
     "                           NAME X Y Z LATITUDE LONGITUDE HEIGHT\n"
@@ -137,8 +140,60 @@ static void warn_of_focal(const struct reconstruction *reconstruction, const str
     if (focal_differs(&c, reconstruction, facts))
         fprintf(stderr,
                 "staffage-import: warning: the focal length is %.1f mm in the reconstruction, and EXIF says %.0f (35 mm film): "
-                "heights may be wrong by that factor, %.2f; see \"Is it right?\" in the documentation\n",
+                "heights may be wrong by about that factor, %.2f. One may go on: what stands on the ground stays right, "
+                "heights of the place do not (docs/import.md, \"Is it right?\")\n",
                 c.reconstruction_mm, c.exif_mm, c.reconstruction_mm / c.exif_mm);
+}
+
+/* Hardly a country keeps its clock 3 hours away from its sun. */
+static void warn_of_offset(const char *utc_offset, double longitude_deg)
+{
+    int hours = 0, minutes = 0;
+    sscanf(utc_offset + 1, "%2d:%2d", &hours, &minutes);
+    double offset_h = (utc_offset[0] == '-' ? -1 : 1) * (hours + minutes / 60.0), sun_h = longitude_deg / 15;
+    double apart_h = fabs(remainder(offset_h - sun_h, 24)); /* beyond the date line a day is no difference */
+    if (apart_h > 3)
+        fprintf(stderr, "staffage-import: warning: --utc-offset %s is %.1f h away from the sun's time at longitude %.1f "
+                "(%+.1f h): is that the offset of the place?\n", utc_offset, apart_h, longitude_deg, sun_h);
+}
+
+static void warn_of_no_times(const struct photographs *photographs)
+{
+    size_t without = photographs->count - photographs_with_clock(photographs);
+    if (without)
+        fprintf(stderr, "staffage-import: warning: the shots have no times: %zu of %zu photographs have none in their EXIF\n",
+                without, photographs->count);
+    else
+        fputs("staffage-import: warning: the shots have no times: EXIF has no offset from UTC; give --utc-offset +HH:MM\n", stderr);
+}
+
+static bool ends_in(const char *path, const char *ending)
+{
+    size_t n = strlen(path), m = strlen(ending);
+    return n > m && !strcasecmp(path + n - m, ending);
+}
+
+/* What would fail only later, when the scene is used, or under a name that says less. */
+static bool check_files(const struct options *o, struct error *err)
+{
+    if (file_exists(o->scene))
+        return error_at(err, ERR_INPUT, o->scene, 0, 0, "is there already, and may hold your work: give another name or remove it");
+    if (o->placement.way == PLACEMENT_POINTS && !file_exists(o->placement.points_file))
+        return error_at(err, ERR_INPUT, o->placement.points_file, 0, 0,
+                        "there is no such file; --georeference takes gps, none or a file of control points");
+    if (o->mesh && !ends_in(o->mesh, ".ply") && !ends_in(o->mesh, ".obj"))
+        return error_at(err, ERR_INPUT, o->mesh, 0, 0, "is no mesh of a place by its name: .ply or .obj would be right");
+    if (o->roads && !ends_in(o->roads, ".osm") && !ends_in(o->roads, ".pbf"))
+        return error_at(err, ERR_INPUT, o->roads, 0, 0, "is no map by its name: .osm or .osm.pbf would be right");
+    return true;
+}
+
+static void report_scene(const char *scene, const struct placement *placement)
+{
+    if (placement->way == PLACEMENT_NONE && !placement->has_place)
+        printf("scene: %s; nothing can be put into it before it is in metres: --georeference gps or FILE, or --distance\n", scene);
+    else
+        printf("scene: %s; light, exposure, lens and who comes by are yours to say there: #light: to #traffic:\n", scene);
 }
 
 static bool import(const struct options *o, struct error *err)
@@ -147,13 +202,11 @@ static bool import(const struct options *o, struct error *err)
     struct photographs photographs = { 0 };
     struct placement placement = { 0 };
     char *mesh = NULL, *roads = NULL, *text = NULL;
-    bool ok = !file_exists(o->scene) ||
-              error_at(err, ERR_INPUT, o->scene, 0, 0, "is there already, and may hold your work: give another name or remove it");
-    ok = ok && o->tool->read(&reconstruction, o->source, err) &&
-         photographs_find(&photographs, &reconstruction, o->scene, o->source, o->images, err) &&
-         (!o->mesh || (mesh = path_from(o->scene, o->mesh, err))) &&
-         (!o->roads || (roads = path_from(o->scene, o->roads, err))) &&
-         placement_find(&placement, &reconstruction, photographs.facts, &o->placement, err);
+    bool ok = check_files(o, err) && o->tool->read(&reconstruction, o->source, err) &&
+              photographs_find(&photographs, &reconstruction, o->scene, o->source, o->images, err) &&
+              (!o->mesh || (mesh = path_from(o->scene, o->mesh, err))) &&
+              (!o->roads || (roads = path_from(o->scene, o->roads, err))) &&
+              placement_find(&placement, &reconstruction, photographs.facts, &o->placement, err);
     if (ok) {
         const struct imported imported = { o->tool->name, &reconstruction, &photographs, &placement,
                                            o->utc_offset, mesh, roads };
@@ -162,10 +215,10 @@ static bool import(const struct options *o, struct error *err)
         warn_of_focal(&reconstruction, photographs.facts);
         ok = scene_yaml_write(&text, &imported, err) && file_write(o->scene, text, strlen(text), err);
         if (ok && !scene_yaml_has_times(&imported))
-            fprintf(stderr, "staffage-import: warning: the shots have no times: %s\n",
-                    o->utc_offset ? "not every photograph's EXIF has one"
-                                  : "EXIF has no offset from UTC; give --utc-offset +HH:MM");
-        if (ok) printf("scene: %s; light, exposure and who comes by are yours to say there\n", o->scene);
+            warn_of_no_times(&photographs);
+        else if (ok && o->utc_offset && placement.has_place)
+            warn_of_offset(o->utc_offset, placement.origin_lat_lon_h[1]);
+        if (ok) report_scene(o->scene, &placement);
     }
     free(text);
     free(mesh);

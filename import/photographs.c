@@ -8,13 +8,17 @@
 #include <string.h>
 #include <sys/stat.h>
 
+static bool is_folder(const char *path)
+{
+    struct stat st;
+    return stat(path, &st) == 0 && S_ISDIR(st.st_mode);
+}
+
 /* The folder in which an image is, seen from what was imported. */
 static char *find_folder(const char *source, const char *image, struct error *err)
 {
     static const char *const places[] = { "", "/images", "/..", "/../images", "/../..", "/../../images" };
-    struct stat st;
-    bool is_folder = stat(source, &st) == 0 && S_ISDIR(st.st_mode);
-    char *base = is_folder ? strdup(source) : path_folder(source), *found = NULL;
+    char *base = is_folder(source) ? strdup(source) : path_folder(source), *found = NULL;
     for (size_t i = 0; base && !found && i < sizeof places / sizeof *places; i++) {
         char *folder = string_format("%s%s", base, places[i]);
         char *file = folder ? string_format("%s/%s", folder, image) : NULL;
@@ -43,6 +47,7 @@ static bool find_one(char **name, struct photo_facts *facts, const char *scene_p
 bool photographs_find(struct photographs *photographs, const struct reconstruction *reconstruction,
                       const char *scene_path, const char *source, const char *folder, struct error *err)
 {
+    if (folder && !is_folder(folder)) return error_at(err, ERR_INPUT, folder, 0, 0, "is no folder; --images names the one of the photographs");
     size_t n = reconstruction->shot_count;
     struct photographs found = { calloc(n, sizeof *found.names), calloc(n, sizeof *found.facts), n };
     char *beside = folder ? strdup(folder) : find_folder(source, reconstruction->shots[0].image, err);
@@ -64,6 +69,13 @@ void photographs_release(struct photographs *photographs)
     free(photographs->names);
     free(photographs->facts);
     *photographs = (struct photographs){ 0 };
+}
+
+size_t photographs_with_clock(const struct photographs *photographs)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < photographs->count; i++) n += photographs->facts[i].has_time;
+    return n;
 }
 
 bool photograph_time(char text[40], const struct photo_facts *facts, const char *utc_offset)

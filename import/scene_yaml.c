@@ -121,9 +121,14 @@ static void put_shots(FILE *f, const struct imported *in)
     const struct reconstruction *r = in->reconstruction;
     bool times = scene_yaml_has_times(in);
     fputs("\nshots:\n", f);
-    if (!times)
+    size_t with_clock = photographs_with_clock(in->photographs);
+    if (!times && with_clock == in->photographs->count)
         fputs("  # No times: the photographs' EXIF does not tell them with an offset from UTC. The sun and whatever moves need\n"
-              "  # them; staffage import --utc-offset +HH:MM writes them where EXIF has the local time.\n", f);
+              "  # them; staffage import --utc-offset +HH:MM writes them.\n", f);
+    else if (!times)
+        fprintf(f, "  # No times: %zu of %zu photographs have none in their EXIF. The sun and whatever moves need them: give every\n"
+                   "  # shot its own, like time: 2021-05-01T10:53:40-04:00\n",
+                in->photographs->count - with_clock, in->photographs->count);
     for (size_t i = 0; i < r->shot_count; i++) {
         struct pose pose = placement_shot(in->placement, &r->shots[i]);
         fputs("  - photograph: ", f);
@@ -139,11 +144,12 @@ static void put_shots(FILE *f, const struct imported *in)
     }
 }
 
-/* The transform is known even where no mesh is given yet: then every line is a comment. */
+/* The transform is known even where no mesh is given yet: then every line is a comment. Keys in comments have no
+ * blank after the #, so that taking it away leaves them where YAML wants them. */
 static void put_static(FILE *f, const struct imported *in)
 {
     const struct similarity *s = &in->placement->world_from_reconstruction;
-    const char *off = in->mesh ? "" : "# ";
+    const char *off = in->mesh ? "" : "#";
     if (in->mesh)
         fputs("\n# The place as a mesh, in the reconstruction's own frame.\n", f);
     else
@@ -156,7 +162,7 @@ static void put_static(FILE *f, const struct imported *in)
     put_quat(f, s->rotation);
     fprintf(f, "%s    translation_m: ", off);
     put_vec3(f, s->translation);
-    if (!in->mesh) fputs("# ground: {height_m: 0, albedo: 0.15}\n", f);
+    if (!in->mesh) fputs("#ground: {height_m: 0, albedo: 0.2}  # the plane\n", f);
 }
 
 static int by_value(const void *a, const void *b)
@@ -186,28 +192,30 @@ static void put_rest(FILE *f, const struct imported *in)
     if (in->roads) {
         fputs("roads:\n  osm: ", f);
         put_text(f, in->roads);
-        fputs("\n  driving_side: right  # or left\n", f);
+        fputs("\n  driving_side: right  # or left\n"
+              "  sidewalk_m: 1.8  # where the map has sidewalks, and along residential streets; 0: none\n", f);
     } else {
         fputs("# The map (OpenStreetMap, .osm or .pbf) whose roads are driven on, or paths by hand.\n"
-              "# roads: {osm: roads.osm, driving_side: right}\n"
-              "# paths: [{name: lane, use: vehicles, width_m: 3.5, points_m: [[-20, 0], [20, 5]]}]\n", f);
+              "#roads: {osm: roads.osm, driving_side: right, sidewalk_m: 1.8}\n"
+              "#paths: [{name: lane, use: vehicles, width_m: 3.5, points_m: [[-20, 0], [20, 5]]}]\n", f);
     }
     fputs("\n# What no reconstruction tells. Take the # away and say how it was.\n"
-          "# light: {sky: clear, fill: 0.1}  # or overcast\n"
-          "# exposure: {roads: true}         # or patch_px, or a value\n", f);
+          "#light: {sky: clear, fill: 0.1}  # or overcast\n"
+          "#exposure: {roads: true}  # or patch_px, or a value\n", f);
+    if (in->mesh)
+        fputs("#ground: {albedo: 0.2}  # of the road in the sun: what is put in looks too bright? raise it\n", f);
     double exposure_s = usual_exposure(in->photographs);
-    if (exposure_s > 0) {
-        fputs("# lens: {exposure_s: ", f);
-        put_number(f, exposure_s);
-        fputs("}      # by EXIF: what moves is blurred by it\n", f);
-    }
-    fputs("\n# Who is to come by.\n"
-          "# models:\n"
-          "#   hatchback: {file: models/hatchback.obj, length_m: 4.2, up: z, front: -y, class: car}\n"
-          "#   walker: {file: models/walker.glb, class: person}\n"
-          "# traffic:\n"
-          "#   vehicles: {count: 12, models: {hatchback: {}}, speed_m_s: 8}\n"
-          "#   people: {count: 12, models: {walker: {}}, speed_m_s: 1.4}\n", f);
+    fputs("#lens: {exposure_s: ", f);
+    put_number(f, exposure_s > 0 ? exposure_s : 0.002);
+    fputs(exposure_s > 0 ? "}  # by EXIF: what moves is blurred by it\n"
+                         : "}  # a guess, for EXIF has none: what moves is blurred by it\n", f);
+    fputs("\n# Who is to come by. The models are files of yours, relative to this file.\n"
+          "#models:\n"
+          "#  hatchback: {file: models/hatchback.obj, length_m: 4.2, up: z, front: -y, class: car}\n"
+          "#  walker: {file: models/walker.glb, class: person}\n"
+          "#traffic:\n"
+          "#  vehicles: {count: 12, models: {hatchback: {}}, speed_m_s: 8}\n"
+          "#  people: {count: 12, models: {walker: {}}, speed_m_s: 1.4}\n", f);
 }
 
 bool scene_yaml_has_times(const struct imported *in)

@@ -29,11 +29,11 @@ out:
     return text;
 }
 
-/* What a user does: takes the # away from these sections. */
+/* What a user does: takes the # away from a key, and nothing else. */
 static void uncomment(char *text, const char *section)
 {
     char *at = strstr(text, section);
-    if (OK(at, "there is an example: %s", section)) memmove(at, at + 2, strlen(at + 2) + 1);
+    if (OK(at, "there is an example: %s", section)) memmove(at, at + 1, strlen(at + 1) + 1);
 }
 
 static struct scene *read_scene(const char *text)
@@ -92,12 +92,12 @@ static void a_flight_by_distance(void)
     const struct placement_request request = { .way = PLACEMENT_DISTANCE, .p = { { 1, 0, 0 }, { 4, 4, 0 } }, .distance_m = 20 };
     char *text = import(&flight, &in, scratch, &request, NULL, &err);
     if (!OK(text, "a flight without GPS is imported by one distance")) return;
-    OK(strstr(text, "# static:\n") && strstr(text, "#     scale: 4\n"), "without a mesh its scale is there as a comment");
-    uncomment(text, "# ground:");
-    uncomment(text, "# light:");
-    char *sky = strstr(text, "light: {sky: clear"), *roads = strstr(text, "# exposure: {roads: true}         ");
+    OK(strstr(text, "\n#static:\n") && strstr(text, "\n#    scale: 4\n"), "without a mesh its scale is there as a comment");
+    uncomment(text, "#ground:");
+    uncomment(text, "#light:");
+    char *sky = strstr(text, "light: {sky: clear"), *roads = strstr(text, "#exposure: {roads: true}");
     if (sky) memcpy(sky, "light: {sky: overcast} #", 24);
-    if (roads) memcpy(roads, "exposure: {value: 1}              ", 34);
+    if (roads) memcpy(roads, "exposure: {value: 1}   #", 24);
     struct scene *scene = read_scene(text);
     free(text);
     if (OK(scene, "and read as a scene")) {
@@ -179,8 +179,8 @@ static void brighton(void)
         struct reprojection e = reconstruction_reprojection(&flight[0]);
         NEAR(e.point_mean_px, flight[0].stated_error_px, 1e-9, "brighton: every point reprojects as COLMAP states (%.4f px)", e.point_mean_px);
         NEAR(flight[0].stated_error_px, 0.39385275, 1e-8, "brighton: which is 0.39 px");
-        uncomment(text[0], "# light:");
-        uncomment(text[0], "# exposure:");
+        static const char *const keys[] = { "#light:", "#exposure:", "#ground:", "#lens:" };
+        for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) uncomment(text[0], keys[i]);
         struct scene *scene = read_scene(text[0]);
         if (OK(scene && scene->shot_count == 18, "brighton: all 18 images are shots of a scene")) {
             double rms_px, mean_px;
@@ -189,6 +189,7 @@ static void brighton(void)
             NEAR(mean_px, 0.4077356256, 1e-8, "brighton: and the mean");
             OK(scene->has_place && fabs(scene->place.latitude_rad * 180 / M_PI - 46.8426) < 1e-3 &&
                    fabs(scene->place.longitude_rad * 180 / M_PI + 91.994) < 1e-3, "brighton: at its place");
+            OK(scene->ground_albedo[0] == 0.2 && scene->sidewalk_m == 1.8, "brighton: the road's albedo and the sidewalks' width are the defaults");
             OK(scene->has_time && scene->time_utc.hour == 21 && scene->time_utc.minute == 31 && scene->time_utc.second == 59, "brighton: at 16:31:59, five hours behind UTC");
             double least = INFINITY, most = -INFINITY;
             for (size_t i = 0; i < 18; i++) {
