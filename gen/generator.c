@@ -272,16 +272,42 @@ out:
     return ok;
 }
 
-bool generator_write_run(const struct generator *g, const struct frame_result *frames, size_t n, struct error *err)
+/* The frames of this run and, of those that run.json names already, what the scene still has and the same input made. */
+static json_t *list_frames(const struct generator *g, const struct frame_result *frames, size_t n, const json_t *before,
+                           const char *input, size_t *others)
+{
+    const char *input_before = json_string_value(json_object_get(before, "input_hash"));
+    const json_t *names_before = json_object_get(before, "frames");
+    bool same = input_before && !strcmp(input_before, input);
+    json_t *names = json_array();
+    *others = json_array_size(names_before);
+    for (size_t k = 0; k < g->scene->shot_count; k++) {
+        char name[FRAME_NAME_SIZE];
+        bool made = false, was = false;
+        generator_frame_name(name, g, k);
+        for (size_t i = 0; i < n; i++) made = made || !strcmp(frames[i].name, name);
+        for (size_t i = 0; i < json_array_size(names_before); i++) {
+            const char *other = json_string_value(json_array_get(names_before, i));
+            was = was || (other && !strcmp(other, name));
+        }
+        if (made || (was && same)) json_array_append_new(names, json_string(name));
+        if (was && (made || same)) --*others;
+    }
+    return names;
+}
+
+bool generator_write_run(const struct generator *g, const struct frame_result *frames, size_t n,
+                         size_t *others, struct error *err)
 {
     static const char *const qualities[] = { "draft", "standard", "high" };
     const struct scene *s = g->scene;
-    char hash[17], *path = string_format("%s/run.json", g->out_folder);
+    char hash[17], input[17], *path = string_format("%s/run.json", g->out_folder);
     snprintf(hash, sizeof hash, "%016llx", (unsigned long long)s->hash);
-    json_t *names = json_array();
-    for (size_t i = 0; i < n; i++) json_array_append_new(names, json_string(frames[i].name));
-    json_t *run = json_pack("{s:s, s:s, s:s, s:s, s:i, s:[fff], s:o}", "version", PACKAGE_VERSION, "scene", s->path,
-                            "scene_hash", hash, "quality", qualities[s->quality], "seed", s->seed,
+    snprintf(input, sizeof input, "%016llx", (unsigned long long)g->input_hash);
+    json_t *before = path ? json_load_file(path, 0, NULL) : NULL, *names = list_frames(g, frames, n, before, input, others);
+    json_decref(before);
+    json_t *run = json_pack("{s:s, s:s, s:s, s:s, s:s, s:i, s:[fff], s:o}", "version", PACKAGE_VERSION, "scene", s->path,
+                            "scene_hash", hash, "input_hash", input, "quality", qualities[s->quality], "seed", s->seed,
                             "ground_irradiance_over_pi", g->light.irradiance[0], g->light.irradiance[1],
                             g->light.irradiance[2], "frames", names);
     if (run && g->light.has_sun) {

@@ -36,8 +36,10 @@ bool generator_prepare(struct generator *generator, const size_t *frames, size_t
 /* Generate one frame, unless it is there from the same input. */
 bool generator_frame(struct frame_result *result, struct generator *generator, size_t frame, struct error *err);
 
-/* OUT/run.json: version, scene and its hash, settings, light, frames. */
+/* OUT/run.json: version, scene and its hash, settings, light, frames; those of earlier runs of the same
+ * input, too.
+ * Out: others   frames in the folder that are of another input, which run.json no longer names */
 bool generator_write_run(const struct generator *generator, const struct frame_result *frames, size_t n,
-                         struct error *err);
+                         size_t *others, struct error *err);
 
 #endif

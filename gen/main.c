@@ -116,9 +116,13 @@ static bool generate(const struct options *o, struct error *err)
             .options = { settings.object_antialias, settings.receiver_antialias, settings.receiver_antialias },
         };
     }
-    ok = done == 0 || (generator_write_run(generator, results, done, err) &&
+    size_t others = 0;
+    ok = done == 0 || (generator_write_run(generator, results, done, &others, err) &&
                        makefile_write(o->out, templates, entries, done, err));
     if (ok && done) printf("staffage: generated %zu frame%s, %zu unchanged\n", made, made == 1 ? "" : "s", kept);
+    if (ok && others)
+        fprintf(stderr, "staffage-gen: warning: %s holds %zu frame%s of another seed, scene or version, which no longer count: "
+                "take another folder (-o) to keep them apart\n", o->out, others, others == 1 ? "" : "s");
     if (ok && failed) {
         if (n > 1) fprintf(stderr, "staffage-gen: %zu of %zu frames could not be generated\n", failed, n);
         *err = first;

@@ -29,7 +29,7 @@ static bool stand(struct entity *entity, const struct stage *stage, struct vec2 
     double wheelbase = upright ? 0 : 0.6 * (model->max_m.x - model->min_m.x);
     double track = upright ? 0 : 0.85 * (model->max_m.y - model->min_m.y);
     return surface_stand(&stage->surface, &entity->world_from_entity, p.x, p.y, heading_rad, wheelbase, track) ||
-           error_set(err, ERR_INPUT, "at (%.2f, %.2f) there is a hole in the static mesh to stand on", p.x, p.y);
+           error_set(err, ERR_INPUT, "at (%.2f, %.2f) there is no static mesh to stand on: a hole in it, or its edge", p.x, p.y);
 }
 
 /* As fast over the ground as it goes on the map, up and down with its own front. */

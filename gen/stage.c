@@ -34,14 +34,17 @@ static bool out_of_memory(struct error *err)
 
 /* --- models --- */
 
-static bool warn(struct stage *stage, const char *model, const char *texture, struct error *err)
+/* Takes the text over. */
+static bool warn(struct stage *stage, char *text, struct error *err)
 {
-    char **grown = realloc(stage->warnings, (stage->warning_count + 1) * sizeof *grown);
-    if (!grown) return out_of_memory(err);
+    char **grown = text ? realloc(stage->warnings, (stage->warning_count + 1) * sizeof *grown) : NULL;
+    if (!grown) {
+        free(text);
+        return out_of_memory(err);
+    }
     stage->warnings = grown;
-    grown[stage->warning_count] = string_format("%s: texture \"%s\" not found beside it or in the folders around it; "
-                                                "its material has its plain colour", model, texture);
-    return grown[stage->warning_count++] || out_of_memory(err);
+    grown[stage->warning_count++] = text;
+    return true;
 }
 
 /* Of what was loaded: a model can lie in several files (.bin, .mtl, textures). */
@@ -84,9 +87,19 @@ static bool load_model(struct stage *stage, size_t index, const struct material_
     struct model *model = stage->models[index];
     if (model->rig && !gait_create(&stage->gaits[index], model, err)) return false;
     for (size_t k = 0; k < model->missing_texture_count; k++)
-        if (!warn(stage, named->file, model->missing_textures[k], err)) return false;
+        if (!warn(stage, string_format("%s: texture \"%s\" not found beside it or in the folders around it; its material has its "
+                                       "plain colour", named->file, model->missing_textures[k]), err))
+            return false;
     stage->hash = hash_model(stage->hash, model);
     return true;
+}
+
+/* Who comes by walks by an animation: without one it glides. */
+static bool warn_of_gliding(struct stage *stage, size_t model, struct error *err)
+{
+    if (stage->models[model]->rig) return true;
+    return warn(stage, string_format("%s: has no animation: as traffic it glides over the ground; glTF with a skin walks",
+                                     stage->scene->models[model].file), err);
 }
 
 static bool load_models(struct stage *stage, const struct material_rules *rules, struct error *err)
@@ -97,7 +110,9 @@ static bool load_models(struct stage *stage, const struct material_rules *rules,
     const struct scene_movers *const movers[] = { &s->vehicles, &s->people };
     for (int k = 0; k < 2; k++)
         for (size_t i = 0; i < movers[k]->model_count; i++)
-            if (!load_model(stage, movers[k]->models[i], rules, s->models[movers[k]->models[i]].class_, err)) return false;
+            if (!load_model(stage, movers[k]->models[i], rules, s->models[movers[k]->models[i]].class_, err) ||
+                (movers[k] == &s->people && !warn_of_gliding(stage, movers[k]->models[i], err)))
+                return false;
     return true;
 }
 
@@ -309,7 +324,7 @@ static bool start_traffic(struct stage *stage, struct error *err)
             .color_count = s->vehicles.color_count, .first_id = (uint16_t)(s->entity_count + 1), .seed = (uint64_t)s->seed,
         };
         ok = traffic_create(&stage->traffic, &stage->roads, &options, begin, end, err) ||
-             stage_fail(s, s->vehicles.count ? s->vehicles.source : s->people.source, err);
+             stage_fail(s, strstr(err->text, " people ") || !s->vehicles.count ? s->people.source : s->vehicles.source, err);
     }
     free(vehicles);
     free(people);

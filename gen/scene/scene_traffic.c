@@ -1,5 +1,6 @@
 #include "gen/scene/scene_keys.h"
 #include "gen/scene/scene_read.h"
+#include "lib/class.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -59,8 +60,9 @@ bool scene_read_roads(const struct reading *r, const struct yaml_node *root)
     return true;
 }
 
-static bool read_movers(const struct reading *r, struct scene_movers *movers, const struct yaml_node *node, const char *who)
+static bool read_movers(const struct reading *r, struct scene_movers *movers, const struct yaml_node *node, bool people)
 {
+    const char *who = people ? "traffic.people" : "traffic.vehicles";
     if (!node) return true;
     const struct yaml_node *models = yaml_get(node, "models"), *colors = yaml_get(node, "colors");
     size_t color_count = colors ? colors->count : 0;
@@ -83,6 +85,10 @@ static bool read_movers(const struct reading *r, struct scene_movers *movers, co
         if (!scene_find_model(r, &movers->models[i], key.text, &key, who)) return false;
         if (!r->scene->models[movers->models[i]].has_class)
             return FAIL(r, &key, "%s: model \"%.80s\" must say its class", who, key.text);
+        const struct class_info *is = class_info(r->scene->models[movers->models[i]].class_);
+        if (is->is_person != people)
+            return FAIL(r, &key, "%s: model \"%.80s\" is of class %s: %s", who, key.text, is->name,
+                        people ? "people only walk here" : "vehicles only drive here");
         movers->weights[i] = number_at(models->items[i], "weight");
     }
     return true;
@@ -91,8 +97,8 @@ static bool read_movers(const struct reading *r, struct scene_movers *movers, co
 bool scene_read_traffic(const struct reading *r, const struct yaml_node *node)
 {
     struct scene *scene = r->scene;
-    if (!read_movers(r, &scene->vehicles, yaml_get(node, "vehicles"), "traffic.vehicles") ||
-        !read_movers(r, &scene->people, yaml_get(node, "people"), "traffic.people"))
+    if (!read_movers(r, &scene->vehicles, yaml_get(node, "vehicles"), false) ||
+        !read_movers(r, &scene->people, yaml_get(node, "people"), true))
         return false;
     bool moves = scene->vehicles.count || scene->people.count;
     for (size_t i = 0; i < scene->entity_count; i++) moves = moves || scene->entities[i].speed_m_s != 0;

@@ -424,14 +424,17 @@ static void text_is_not_guessed_to_be_something_else(void)
                          "traffic, weather, lens, transfer, labels, quality, seed)" },
         { "photographs: {files: [street.jpg, street-wet.jpg]}\nplace: {latitude_deg: 46, longitude_deg: -92}\n"
           "paths: [{name: a, use: people, width_m: 2, points_m: [[0, 0], [9, 0]]}]\n"
-          "traffic: {people: {count: 2, models: {hatchback: {}}}}\n",
+          "traffic: {vehicles: {count: 2, models: {hatchback: {}}}}\n",
           "something moves, and the photographs have no times: give photographs.rate_hz" },
-        { "traffic: {people: {count: 2, models: {hatchback: {}}}}\n",
+        { "traffic: {vehicles: {count: 2, models: {hatchback: {}}}}\n",
           "traffic: there is nowhere to go: give roads (a map) or paths" },
         { "paths: [{name: a, use: people, width_m: 2, lat_lon_deg: [[46, -92], [46.1, -92]]}]\n",
           "path \"a\": latitudes need the scene's place" },
         { "static: {mesh: place.ply}\nground: {height_m: 0}\n",
           "ground: the static mesh is the ground: only albedo has a meaning here" },
+        { "paths: [{name: a, use: people, width_m: 2, points_m: [[0, 0], [9, 0]]}]\n"
+          "traffic: {people: {count: 2, models: {hatchback: {}}}}\n",
+          "traffic.people: model \"hatchback\" is of class car: people only walk here" },
         { "lens: {focus_m: 3}\n", "lens: defocus_px and focus_m go together" },
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
