@@ -3,6 +3,33 @@
 #include "post/layer.h"
 #include "post/morphology.h"
 
+#include <math.h>
+
+/* Variance of a Gaussian that is sampled at whole pixels. */
+static double sampled_variance(double sigma_px)
+{
+    double sum = 1, moment = 0;
+    for (int k = 1; k <= 3; k++) {
+        double w = 2 * exp(-k * k / (2 * sigma_px * sigma_px));
+        sum += w;
+        moment += w * k * k;
+    }
+    return moment / sum;
+}
+
+/* A narrow Gaussian falls between the pixels: the one whose samples blur as much. */
+static double for_pixels(double sigma_px)
+{
+    double low = 0.1, high = 1;
+    if (sigma_px >= 0.8) return sigma_px;
+    for (int i = 0; i < 30; i++) {
+        double middle = (low + high) / 2;
+        if (sampled_variance(middle) < sigma_px * sigma_px) low = middle;
+        else high = middle;
+    }
+    return high;
+}
+
 /* Weigh a layer by what can be seen of it, blur both, and divide: as kernel_mean does. */
 static bool blur_seen(struct image *out, const struct image *layer, const struct image *share, double sigma_px, struct error *err)
 {
@@ -40,5 +67,6 @@ static bool blur(struct image *layer, const struct image *share, double sigma_px
 bool softness_blur(struct image *object, struct image *light, const struct image *visible, const struct image *receiver,
                    double sigma_px, struct error *err)
 {
-    return blur(object, visible, sigma_px, err) && blur(light, receiver, sigma_px, err);
+    double sampled_px = for_pixels(sigma_px);
+    return blur(object, visible, sampled_px, err) && blur(light, receiver, sampled_px, err);
 }

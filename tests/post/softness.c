@@ -21,6 +21,11 @@ int main(void)
     OK(image_f32(&object, 24, 10)[3] == 0 && image_f32(&light, 20, 14)[0] == 0, "beyond, nothing changes");
     OK(image_f32(&light, 20, 10)[1] == 0, "nor in other channels");
 
+    memset(object.data, 0, image_size(&object));
+    image_f32(&object, 20, 10)[3] = 1;
+    OK(softness_blur(&object, &light, NULL, NULL, 0.4, &err), "by less than a pixel");
+    NEAR(variance_of(&object, 3, 20), 0.16, 1e-3, "they are softened as much as asked");
+
     fill(&object, 10, 0, 30, H, (float[]){ 0.2f, 0.2f, 0.2f, 1 });
     struct image hidden = hidden_between(W, H, 20, 30);
     OK(softness_blur(&object, &light, &hidden, &hidden, 1.5, &err), "of what is half hidden");
