@@ -85,7 +85,7 @@ flight() {
         done
     fi
     sed -e "s|\.\./\.\./\.\./shared/data/brighton/images/\(.*\)\.JPG|$photographs/\1.jpg|" -e "s|mesh: .*|mesh: $3|" \
-        -e "s|\.\./\.\./\.\./shared|$shared|" -e "s|\.\./models|$(cd "$top_builddir" && pwd)/scenes/models|" \
+        -e "s|\.\./\.\./\.\./shared|$shared|" -e "s|\.\./\.\./models|$(cd "$top_builddir" && pwd)/models|" \
         -e "s|^    count: .*|    count: $4|" -e "s|people: { count: [0-9]*|people: { count: $5|" \
         "$top_srcdir/scenes/brighton/scene.yaml" >"$work/$1.yaml"
     flights="$flights $1"

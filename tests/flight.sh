@@ -8,7 +8,7 @@ for helper in compare-changes compare-frame make-place project-box same-pixels; 
 done
 cp "$top_srcdir/tests/input/box.obj" .
 for model in sedan.obj sedan.mtl walker-man.glb walker-woman.glb; do
-    cp "$(ls "$top_builddir/scenes/models/$model" "$top_srcdir/scenes/models/$model" 2>/dev/null | head -n 1)" .
+    cp "$(ls "$top_builddir/models/$model" "$top_srcdir/models/$model" 2>/dev/null | head -n 1)" .
 done
 ./make-place . || exit 1
 

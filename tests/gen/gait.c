@@ -7,7 +7,7 @@
 
 #define COUNT(a) (sizeof(a) / sizeof *(a))
 
-static const char *const walkers[] = { "scenes/models/walker-man.glb", "scenes/models/walker-woman.glb" };
+static const char *const walkers[] = { "models/walker-man.glb", "models/walker-woman.glb" };
 
 static struct model *load_walker(const char *name)
 {

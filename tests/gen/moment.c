@@ -186,7 +186,7 @@ int main(void)
     if (!OK(mkdtemp(folder) != NULL, "a folder")) return tap_done();
     put_image("a.png", 90, 90, 90);
     copied("box.obj", "top_srcdir", "tests/input/box.obj");
-    snprintf(walker, sizeof walker, "%s", copied("man.glb", "top_builddir", "scenes/models/walker-man.glb"));
+    snprintf(walker, sizeof walker, "%s", copied("man.glb", "top_builddir", "models/walker-man.glb"));
     snprintf(path, sizeof path, "%s", put_text("scene.yaml", scene_text));
     bool ok = scene_read(&scene, path, &err) && material_rules_read(&rules, rules_path, &err) && stage_create(&stage, scene, rules, &err);
     if (OK(ok, "a stage %s:%d %s", err.file, err.line, err.text)) {

@@ -75,7 +75,7 @@ static double largest_difference(const struct model *a, const struct model *b, d
 
 static void poses_are_the_loaded_models(void)
 {
-    const char *path = in_folder("top_builddir", "scenes/models/walker-man.glb");
+    const char *path = in_folder("top_builddir", "models/walker-man.glb");
     struct error err = ERROR_NONE;
     struct model *m = load(path, &(struct model_options){ 0 }), *twice = load(path, &(struct model_options){ .unit_m = 2 });
     struct model at[4], large;
@@ -123,7 +123,7 @@ static void poses_are_the_loaded_models(void)
 static void root_motion_is_taken_out(void)
 {
     struct error err = ERROR_NONE;
-    const char *walker = "scenes/models/walker-woman.glb";
+    const char *walker = "models/walker-woman.glb";
     struct model *still = load(in_folder("top_builddir", walker), &(struct model_options){ 0 });
     struct model *going = load(put_going("going.glb", walker, 1.3, 0), &(struct model_options){ 0 });
     struct model a, b;
@@ -306,8 +306,8 @@ int main(void)
 {
     if (!mkdtemp(folder)) return 1;
     awkward_features_agree();
-    walker_agrees("scenes/models/walker-man.glb", walking_man, COUNT(walking_man));
-    walker_agrees("scenes/models/walker-woman.glb", walking_woman, COUNT(walking_woman));
+    walker_agrees("models/walker-man.glb", walking_man, COUNT(walking_man));
+    walker_agrees("models/walker-woman.glb", walking_woman, COUNT(walking_woman));
     poses_are_the_loaded_models();
     root_motion_is_taken_out();
     skins_are_applied();

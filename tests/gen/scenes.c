@@ -119,7 +119,7 @@ int main(void)
     struct error err = ERROR_NONE;
     struct material_rules *rules = NULL;
     char *rules_path = string_format("%s/templates/materials.rules", top);
-    char *models = string_format("%s/scenes/models", built);
+    char *models = string_format("%s/models", built);
     if (OK(material_rules_read(&rules, rules_path, &err), "the rules are read")) {
         test_model(models, rules, "sedan", vec3(4.61, 2.06, 1.45), 0.02, 5, 9, true);
         test_model(models, rules, "man-walking", vec3(0.91, 0.60, 1.78), 0.05, 0.06, 0.13, false);
@@ -132,7 +132,7 @@ int main(void)
     free(models);
 
     char *demo = string_format("%s/scenes/demo/scene.yaml", top), *video = string_format("%s/scenes/demo/vtest.avi", top);
-    char *beside = string_format("%s/scenes/models/sedan.obj", top); /* the scene names them as they lie when built in place */
+    char *beside = string_format("%s/models/sedan.obj", top); /* the scene names them as they lie when built in place */
     if (file_exists(video) && file_exists(beside))
         test_scene(demo, true);
     else

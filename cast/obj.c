@@ -1,6 +1,6 @@
 /* A mesh as OBJ and MTL files. */
+#include "cast/mesh.h"
 #include "lib/file.h"
-#include "scenes/models/mesh.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ bool write_model(struct model *model, const char *folder, const char *name, cons
     size_t size;
     FILE *f = open_memstream(&text, &size);
     if (!f) abort();
-    fprintf(f, "# Made by Staffage's scenes/models/make-models: free for any use. Metres, z up, front +x.\nmtllib %s.mtl\n", name);
+    fprintf(f, "# Made by staffage-cast: free for any use. Metres, z up, front +x.\nmtllib %s.mtl\n", name);
     write_vectors(f, "v", surface.points, surface.point_count);
     write_vectors(f, "vn", surface.normals, surface.normal_count);
     bool used[MATERIAL_COUNT] = { false };

@@ -1,5 +1,5 @@
 /* The sedan: sheets bent over a few curves, all of them seen from the left side and mirrored. */
-#include "scenes/models/mesh.h"
+#include "cast/mesh.h"
 
 #include <stdlib.h>
 

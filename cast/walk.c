@@ -1,4 +1,4 @@
-#include "scenes/models/walk.h"
+#include "cast/walk.h"
 
 #include <assert.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "scenes/models/mesh.h"
+#include "cast/mesh.h"
 
 #include <stdlib.h>
 

@@ -1,11 +1,11 @@
 /* A person that walks, as a binary glTF 2.0 file: +y up, +z front, metres. */
-#ifndef STAFFAGE_SCENES_MODELS_GLB_H
-#define STAFFAGE_SCENES_MODELS_GLB_H
+#ifndef STAFFAGE_CAST_GLB_H
+#define STAFFAGE_CAST_GLB_H
 
 #include "lib/error.h"
-#include "scenes/models/mesh.h"
-#include "scenes/models/skeleton.h"
-#include "scenes/models/walk.h"
+#include "cast/mesh.h"
+#include "cast/skeleton.h"
+#include "cast/walk.h"
 
 #include <stdbool.h>
 

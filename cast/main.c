@@ -1,8 +1,8 @@
-/* Writes the demo's own models: `make-models FOLDER` makes OBJ and MTL files there, in metres, z up,
+/* Writes our own models: `staffage-cast FOLDER` makes OBJ and MTL files there, in metres, z up,
  * front +x, and people that walk as GLB files. The same numbers give the same bytes on every run. */
+#include "cast/glb.h"
+#include "cast/mesh.h"
 #include "lib/file.h"
-#include "scenes/models/glb.h"
-#include "scenes/models/mesh.h"
 
 #include <stdio.h>
 
@@ -33,7 +33,7 @@ int main(int argc, char **argv)
     };
 
     if (argc != 2) {
-        fprintf(stderr, "usage: make-models FOLDER\n");
+        fprintf(stderr, "usage: staffage-cast FOLDER\n");
         return 2;
     }
     struct error err = ERROR_NONE;
@@ -52,6 +52,6 @@ int main(int argc, char **argv)
         make_walk(&walk, &skeleton, &model);
         good = write_walker(&model, &skeleton, &walk, argv[1], walkers[i].name, &walkers[i].palette, &err);
     }
-    if (!good) error_print(&err, "make-models");
+    if (!good) error_print(&err, "staffage-cast");
     return error_exit_status(&err);
 }

@@ -1,4 +1,4 @@
-#include "scenes/models/skeleton.h"
+#include "cast/skeleton.h"
 
 const char *const joint_name[JOINT_COUNT] = {
     "hips", "spine", "chest", "head",

@@ -1,9 +1,9 @@
 /* A loop of a walk on the spot: two steps, with feet that roll over the ground as it passes by. */
-#ifndef STAFFAGE_SCENES_MODELS_WALK_H
-#define STAFFAGE_SCENES_MODELS_WALK_H
+#ifndef STAFFAGE_CAST_WALK_H
+#define STAFFAGE_CAST_WALK_H
 
-#include "scenes/models/mesh.h"
-#include "scenes/models/skeleton.h"
+#include "cast/mesh.h"
+#include "cast/skeleton.h"
 
 enum { WALK_KEYS = 48 };
 

@@ -1,6 +1,6 @@
 /* People: bones whose balls blend into one another, a piece of cloth at a time, and a mesh of each surface. */
-#include "scenes/models/mesh.h"
-#include "scenes/models/skeleton.h"
+#include "cast/mesh.h"
+#include "cast/skeleton.h"
 
 #include <assert.h>
 

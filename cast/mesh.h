@@ -1,6 +1,6 @@
 /* A triangle mesh of named materials, and the points and normals that its triangles share. */
-#ifndef STAFFAGE_SCENES_MODELS_MESH_H
-#define STAFFAGE_SCENES_MODELS_MESH_H
+#ifndef STAFFAGE_CAST_MESH_H
+#define STAFFAGE_CAST_MESH_H
 
 #include "lib/error.h"
 #include "lib/vec.h"

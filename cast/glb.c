@@ -1,4 +1,4 @@
-#include "scenes/models/glb.h"
+#include "cast/glb.h"
 
 #include "lib/file.h"
 
@@ -247,7 +247,7 @@ bool write_walker(struct model *model, const struct skeleton *skeleton, const st
     for (int i = VIEWS; i < JSON; i++) fclose(text[i].f);
 
     FILE *f = text[JSON].f;
-    fputs("{\"asset\":{\"version\":\"2.0\",\"generator\":\"Staffage make-models\",\"copyright\":\"free for any use\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],", f);
+    fputs("{\"asset\":{\"version\":\"2.0\",\"generator\":\"staffage-cast\",\"copyright\":\"free for any use\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],", f);
     fprintf(f, "\"buffers\":[{\"byteLength\":%zu}],\"bufferViews\":[%s],\"accessors\":[%s],", out.size, text[VIEWS].data, text[ACCESSORS].data);
     fprintf(f, "\"meshes\":[{\"name\":\"%s\",\"primitives\":[%s]}],\"materials\":[%s],\"nodes\":[%s],", name, text[PRIMITIVES].data,
             text[MATERIALS].data, text[NODES].data);

@@ -1,9 +1,9 @@
 /* The joints of a person, and how skin and cloth follow them. */
-#ifndef STAFFAGE_SCENES_MODELS_SKELETON_H
-#define STAFFAGE_SCENES_MODELS_SKELETON_H
+#ifndef STAFFAGE_CAST_SKELETON_H
+#define STAFFAGE_CAST_SKELETON_H
 
 #include "lib/vec.h"
-#include "scenes/models/mesh.h"
+#include "cast/mesh.h"
 
 /* The trunk, then the same limbs on the left and on the right: LIMB(side, THIGH), side 0 is left. */
 enum joint { HIPS, SPINE, CHEST, HEAD, LIMBS };
