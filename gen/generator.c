@@ -70,14 +70,22 @@ static bool trace_models(struct generator *g, struct error *err)
     return ok;
 }
 
-/* What a quality means may change from version to version. */
-static uint64_t hash_settings(uint64_t hash, const struct scene *scene)
+struct pass_settings generator_pass_settings(const struct generator *g)
 {
-    struct pass_settings settings = pass_settings(scene->quality, scene->sky);
+    return pass_settings(g->scene->quality, &g->light);
+}
+
+/* What a quality means may change from version to version. */
+static uint64_t hash_settings(uint64_t hash, const struct generator *g)
+{
+    const struct scene *scene = g->scene;
+    struct pass_settings settings = generator_pass_settings(g);
     hash = hash_bytes(hash, PACKAGE_VERSION, sizeof PACKAGE_VERSION);
     hash = hash_bytes(hash, &scene->hash, sizeof scene->hash);
     hash = hash_bytes(hash, &scene->quality, sizeof scene->quality);
     hash = hash_bytes(hash, &scene->seed, sizeof scene->seed);
+    hash = hash_bytes(hash, g->sky_map, strlen(g->sky_map)); /* named after what is in it */
+    hash = hash_bytes(hash, g->light.sun_color, sizeof g->light.sun_color);
     hash = hash_bytes(hash, &settings.sky_lights, sizeof settings.sky_lights);
     hash = hash_bytes(hash, &settings.radiosity_count, sizeof settings.radiosity_count);
     hash = hash_bytes(hash, &settings.receiver_reduction, sizeof settings.receiver_reduction);
@@ -91,9 +99,14 @@ bool generator_create(struct generator **generator, const struct scene *scene, c
     struct generator *g = calloc(1, sizeof *g);
     if (!g) return error_set(err, ERR_MEMORY, "no memory for the generator");
     const char *rules = scene->material_rules ? scene->material_rules : rules_path;
-    *g = (struct generator){ .scene = scene, .out_folder = out_folder, .input_hash = hash_settings(FILE_HASH_SEED, scene) };
-    if (!material_rules_read(&g->rules, rules, err) || !file_hash(&g->input_hash, rules, err) || !open_video(g, err) ||
-        !light_create(&g->light, scene, err) || !sky_map_write(g->sky_map, out_folder, &g->light, err) ||
+    *g = (struct generator){ .scene = scene, .out_folder = out_folder };
+    if (!material_rules_read(&g->rules, rules, err) || !open_video(g, err) || !light_create(&g->light, scene, err) ||
+        !sky_map_write(g->sky_map, out_folder, &g->light, err)) {
+        generator_destroy(g);
+        return false;
+    }
+    g->input_hash = hash_settings(FILE_HASH_SEED, g);
+    if (!file_hash(&g->input_hash, rules, err) ||
         !stage_create(&g->stage, scene, g->rules, err) || !trace_models(g, err)) {
         generator_destroy(g);
         return false;

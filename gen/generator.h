@@ -3,6 +3,7 @@
 #define STAFFAGE_GEN_GENERATOR_H
 
 #include "gen/frame.h"
+#include "gen/render/passes.h"
 #include "gen/scene/scene.h"
 #include "lib/error.h"
 
@@ -32,6 +33,9 @@ const char *generator_warning(const struct generator *generator, size_t i);
 /* Take the photographs of the frames first ... end-1 out of the video, those that are missing;
  * nothing to do for files. Call before generator_frame. */
 bool generator_prepare(struct generator *generator, const size_t *frames, size_t n, struct error *err);
+
+/* How its passes are rendered. */
+struct pass_settings generator_pass_settings(const struct generator *generator);
 
 /* Generate one frame, unless it is there from the same input. */
 bool generator_frame(struct frame_result *result, struct generator *generator, size_t frame, struct error *err);

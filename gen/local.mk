@@ -7,7 +7,11 @@ gen_libgen_a_SOURCES = \
   %D%/frame_manifest.c \
   %D%/frame_passes.c \
   %D%/generator.c %D%/generator.h \
+  %D%/light/daylight.c %D%/light/daylight.h \
   %D%/light/light.c %D%/light/light.h \
+  %D%/light/measured_sky.c %D%/light/measured_sky.h \
+  %D%/light/sky_form.c %D%/light/sky_form.h \
+  %D%/light/sky_image.h \
   %D%/light/sun.c %D%/light/sun.h \
   %D%/model/affine.c %D%/model/affine.h \
   %D%/model/gltf.cpp %D%/model/gltf.h \
@@ -47,6 +51,7 @@ gen_libgen_a_SOURCES = \
   %D%/scene/scene.c %D%/scene/scene.h \
   %D%/scene/scene_cast.c \
   %D%/scene/scene_keys.c %D%/scene/scene_keys.h \
+  %D%/scene/scene_light.c \
   %D%/scene/scene_pose.c %D%/scene/scene_pose.h \
   %D%/scene/scene_place.c \
   %D%/scene/scene_read.h \

@@ -94,7 +94,7 @@ static bool generate(const struct options *o, struct error *err)
         goto out;
     }
     if (!generator_prepare(generator, chosen, n, err)) goto out;
-    struct pass_settings settings = pass_settings(scene->quality, scene->sky);
+    struct pass_settings settings = generator_pass_settings(generator);
     size_t done = 0;
     for (size_t i = 0; i < n; i++) {
         struct frame_result *result = &results[done];

@@ -101,10 +101,25 @@ check_PROGRAMS += tests/lib/view.test
 tests_lib_view_test_SOURCES = %D%/lib/view.c %D%/tap.h
 nodist_EXTRA_tests_lib_view_test_SOURCES = dummy.cxx
 tests_lib_view_test_LDADD = $(LIB_LIBS)
+check_PROGRAMS += tests/gen/daylight.test
+tests_gen_daylight_test_SOURCES = %D%/gen/daylight.c %D%/tap.h
+nodist_EXTRA_tests_gen_daylight_test_SOURCES = dummy.cxx
+tests_gen_daylight_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/light.test
 tests_gen_light_test_SOURCES = %D%/gen/light.c %D%/tap.h
 nodist_EXTRA_tests_gen_light_test_SOURCES = dummy.cxx
 tests_gen_light_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/measured_sky.test
+tests_gen_measured_sky_test_SOURCES = %D%/gen/measured_sky.c %D%/tap.h
+nodist_EXTRA_tests_gen_measured_sky_test_SOURCES = dummy.cxx
+tests_gen_measured_sky_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/sky_povray.test
+tests_gen_sky_povray_test_SOURCES = %D%/gen/sky_povray.c %D%/tap.h
+nodist_EXTRA_tests_gen_sky_povray_test_SOURCES = dummy.cxx
+tests_gen_sky_povray_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/sdl.test
 tests_gen_sdl_test_SOURCES = %D%/gen/sdl.c %D%/tap.h

@@ -20,8 +20,7 @@ struct light {
     bool has_sun;
     struct vec3 sun_direction;  /* unit, world, towards the sun */
     double sun_color[3];        /* normal irradiance / pi */
-    struct image sky;           /* F32 3: radiance. Row 0 looks up (+z), the last row down; column
-                                   0 begins at +x and columns turn towards +y */
+    struct image sky;           /* F32 3: radiance, laid out as sky_image.h says */
     double irradiance[3];       /* on a level surface in the open, sun and sky, / pi */
 };
 
@@ -32,10 +31,9 @@ struct sky_light {
 };
 
 /* Sun and sky of a scene. The sky below the horizon has the colour of the ground.
- * Err: ERR_INPUT at the scene's sun: it stands below the horizon; what sun_position says
- * Src: clear: Preetham, Shirley, Smits 1999, A Practical Analytic Model for Daylight
- *      (form, colour, sun), IES RP-21 1984 (how much light the clear sky gives);
- *      overcast: CIE S 011/E:2003, type 1 in its traditional form (1 + 2 sin e) / 3 */
+ * Err: ERR_INPUT at the scene's sun: it stands below the horizon; what sun_position and measured_sky_read say
+ * Src: clear, and standard skies that show the sun: daylight.h (how much light, and its colour), sky_form.h (where
+ *      in the sky); overcast: Moon and Spencer 1942 */
 bool light_create(struct light *light, const struct scene *scene, struct error *err);
 void light_release(struct light *light);
 

@@ -8,21 +8,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct pass_settings pass_settings(enum quality quality, enum sky_kind sky)
+struct pass_settings pass_settings(enum quality quality, const struct light *light)
 {
-    /* Under a clear sky the sun makes the shadow, with edges, and the sky fills it: points of the
-     * sky do. Under clouds the sky makes all of it: points would show as steps, and areas of the sky
+    /* Where the sun shows it makes the shadow, with edges, and the sky fills it: points of the
+     * sky do. Without it the sky makes all of it: points would show as steps, and areas of the sky
      * are dear, but what they make is smooth. */
-    bool clear = sky == SKY_CLEAR;
+    bool sun = light->has_sun;
     const char *edges = "+A0.03 +AM2 +R1 -J", *fine = "+A0.03 +AM2 +R2 -J", *none = "-A";
     switch (quality) {
     case QUALITY_DRAFT:
-        return (struct pass_settings){ 10, false, 30, 0.9, clear ? 1 : 2, none, none };
+        return (struct pass_settings){ 10, false, 30, 0.9, sun ? 1 : 2, none, none };
     case QUALITY_HIGH:
-        return (struct pass_settings){ 48, !clear, 200, 0.4, 1, fine, clear ? fine : none };
+        return (struct pass_settings){ 48, !sun, 200, 0.4, 1, fine, sun ? fine : none };
     case QUALITY_STANDARD:
     default:
-        return (struct pass_settings){ clear ? 16 : 24, !clear, 40, 0.8, clear ? 1 : 2, edges, clear ? edges : none };
+        return (struct pass_settings){ sun ? 16 : 24, !sun, 40, 0.8, sun ? 1 : 2, edges, sun ? edges : none };
     }
 }
 
@@ -175,7 +175,7 @@ static bool write_pass(const char *frame_folder, const char *name, const struct 
                        bool receivers, struct error *err)
 {
     const struct scene *scene = p->scene;
-    struct pass_settings settings = pass_settings(scene->quality, scene->sky);
+    struct pass_settings settings = pass_settings(scene->quality, p->light);
     struct sdl sdl;
     sdl_init(&sdl);
     sdl_header(&sdl, "a pass of a frame: POV-Ray runs in the output folder, templates on its library path");

@@ -23,7 +23,7 @@ struct pass_settings {
      * is 1 only where both are sampled alike. */
     const char *object_antialias, *receiver_antialias;
 };
-struct pass_settings pass_settings(enum quality quality, enum sky_kind sky);
+struct pass_settings pass_settings(enum quality quality, const struct light *light);
 
 /* Where the light of the plane and shadow passes comes from: sun and sky, areas of it by many directions.
  * Out: *towards (*n) unit, the caller's */

@@ -149,6 +149,7 @@ out:
 void scene_destroy(struct scene *scene)
 {
     if (!scene) return;
+    free(scene->map.file);
     for (size_t i = 0; i < scene->camera_count; i++) free(scene->cameras[i].name);
     for (size_t i = 0; i < scene->shot_count; i++) {
         free(scene->shots[i].photograph);

@@ -105,12 +105,20 @@ struct scene_occluder {
     struct source source;
 };
 
-enum sky_kind { SKY_CLEAR, SKY_OVERCAST };
-enum sun_kind { SUN_NONE, SUN_BY_TIME, SUN_GIVEN };
+enum sky_kind { SKY_CLEAR, SKY_OVERCAST, SKY_CIE, SKY_MAP };
+enum sun_kind { SUN_NONE, SUN_BY_TIME, SUN_GIVEN, SUN_IN_MAP };
 enum transfer_kind { TRANSFER_LAYERS, TRANSFER_RATIO, TRANSFER_THRESHOLD, TRANSFER_ALPHA };
 enum overwrite_side { OVERWRITE_ABOVE, OVERWRITE_BELOW };
 enum mask_rule { MASK_TRACED, MASK_DILATED };
 enum quality { QUALITY_DRAFT, QUALITY_STANDARD, QUALITY_HIGH };
+
+/* A measured sky: where in it true north is. */
+struct scene_map {
+    char *file;                /* resolved path */
+    bool by_column;
+    double north_px, middle_rad; /* the column of north; or the azimuth of the middle, clockwise from true north */
+    struct source source, north_source;
+};
 
 struct scene {
     char *path;                /* of the scene file */
@@ -131,7 +139,8 @@ struct scene {
     bool has_time;
     struct utc_time time_utc;  /* at time_s 0 of the shots */
     double north_rad;          /* azimuth of the world's +y axis, clockwise from true north */
-    enum sun_kind sun;         /* NONE under an overcast sky and only there; BY_TIME: place and time are there */
+    enum sun_kind sun;         /* BY_TIME: place and time are there; IN_MAP: the map shows whether there is one.
+                                  NONE under clouds, and in a map that is taken as it is; not under a clear sky */
     double sun_azimuth_rad, sun_elevation_rad; /* GIVEN: azimuth clockwise from true north */
     struct source sun_source;
 
@@ -141,7 +150,9 @@ struct scene {
     double ground_reflection;  /* 0..1, mirror share at normal incidence of a wet road; 0 dry */
 
     enum sky_kind sky;
-    double turbidity;
+    double turbidity;          /* CLEAR */
+    int cie_type;              /* CIE: 1 ... 15 */
+    struct scene_map map;      /* MAP */
     double sun_scale;          /* multiplies the sun's irradiance; 1 */
     double fill;               /* shadowless light on entities, as a share of the light in the open */
 

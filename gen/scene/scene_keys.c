@@ -18,7 +18,7 @@ NAMES(world_direction_name, [WORLD_EAST] = "east", [WORLD_WEST] = "west", [WORLD
       [WORLD_SOUTH] = "south", [WORLD_UP] = "up", [WORLD_DOWN] = "down")
 NAMES(model_axis_name, [AXIS_POS_X] = "+x", [AXIS_NEG_X] = "-x", [AXIS_POS_Y] = "+y", [AXIS_NEG_Y] = "-y",
       [AXIS_POS_Z] = "+z", [AXIS_NEG_Z] = "-z", "x", "y", "z")
-NAMES(sky_name, [SKY_CLEAR] = "clear", [SKY_OVERCAST] = "overcast")
+NAMES(sky_name, [SKY_CLEAR] = "clear", [SKY_OVERCAST] = "overcast", [SKY_CIE] = "cie", [SKY_MAP] = "map")
 NAMES(sun_name, "auto", "none")
 NAMES(transfer_name, [TRANSFER_LAYERS] = "layers", [TRANSFER_RATIO] = "ratio", [TRANSFER_THRESHOLD] = "threshold",
       [TRANSFER_ALPHA] = "alpha")
@@ -109,7 +109,12 @@ static const struct schema_key keys[] = {
 
     { "light", TYPE_MAPPING, .presence = REQUIRED },
     { "light.sky", TYPE_CHOICE, .presence = REQUIRED, .choice = sky_name },
-    { "light.turbidity", TYPE_NUMBER, .preset = "3", LIMITS(1.7, 10) },
+    { "light.turbidity", TYPE_NUMBER, .preset = "2.5", LIMITS(1.7, 10) },
+    { "light.cie_type", TYPE_INTEGER, LIMITS(1, 15) },
+    { "light.map", TYPE_MAPPING, .presence = OPTIONAL },
+    { "light.map.file", TYPE_FILE, .presence = REQUIRED },
+    { "light.map.north_px", TYPE_NUMBER, "px", .presence = ONE_OF, LIMITS(0, PIXELS_MAX) },
+    { "light.map.middle_deg", TYPE_NUMBER, "deg", .presence = ONE_OF, LIMITS(-360, 360) },
     { "light.sun", TYPE_CHOICE | TYPE_MAPPING, .preset = "auto", .choice = sun_name },
     { "light.sun.azimuth_deg", TYPE_NUMBER, "deg", .presence = REQUIRED, LIMITS(-360, 360) },
     { "light.sun.elevation_deg", TYPE_NUMBER, "deg", .presence = REQUIRED, ABOVE(0, 90) },

@@ -6,52 +6,6 @@
 
 #define STEEPEST_COS 0.5   /* ground of more than 60 deg is a mistake; plane_fit's rule */
 
-static bool read_overcast(const struct reading *r, const struct yaml_node *node)
-{
-    static const char *const of_clear[] = { "turbidity", "sun_scale", NULL };
-    const struct yaml_node *sun = yaml_get(node, "sun");
-    r->scene->sun = SUN_NONE;
-    if (sun->kind == YAML_MAPPING)
-        return FAIL(r, sun, "light.sun: an overcast sky shows no sun: remove it, or use \"sky: clear\"");
-    return scene_refuse_given(r, node, of_clear, "light",
-                        "has no meaning under an overcast sky: remove it, or use \"sky: clear\"");
-}
-
-static bool read_clear(const struct reading *r, const struct yaml_node *node)
-{
-    struct scene *scene = r->scene;
-    const struct yaml_node *sun = yaml_get(node, "sun");
-    if (sun->kind == YAML_MAPPING) {
-        scene->sun = SUN_GIVEN;
-        scene->sun_azimuth_rad = rad_from_deg(number_at(sun, "azimuth_deg"));
-        scene->sun_elevation_rad = rad_from_deg(number_at(sun, "elevation_deg"));
-        return true;
-    }
-    /* How bright a clear sky is, and where, follows from the sun. */
-    if (!strcmp(sun->text, "none"))
-        return FAIL(r, sun,
-                    "light.sun: a clear sky has its light from the sun: \"sun_scale: 0\" takes the sun itself away, "
-                    "\"sky: overcast\" needs none");
-    if (!scene->has_place || !scene->has_time)
-        return FAIL(r, yaml_get(node, "sky"),
-                    "light: a clear sky needs its sun, and %s missing: give place and time, or light.sun as "
-                    "{azimuth_deg, elevation_deg}",
-                    scene->has_place ? "time is" : scene->has_time ? "place is" : "place and time are");
-    scene->sun = SUN_BY_TIME;
-    return true;
-}
-
-bool scene_read_light(const struct reading *r, const struct yaml_node *node)
-{
-    struct scene *scene = r->scene;
-    scene->sky = (enum sky_kind)schema_choice(sky_name, yaml_get(node, "sky"));
-    scene->turbidity = number_at(node, "turbidity");
-    scene->sun_scale = number_at(node, "sun_scale");
-    scene->fill = number_at(node, "fill");
-    scene->sun_source = source_of(yaml_get(node, "sun"));
-    return scene->sky == SKY_CLEAR ? read_clear(r, node) : read_overcast(r, node);
-}
-
 static bool read_points(const struct reading *r, const struct yaml_node *node)
 {
     struct vec3 *points = calloc(node->count, sizeof *points);

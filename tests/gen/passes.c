@@ -78,7 +78,7 @@ static bool render(struct image pass[3], const char *out, const struct passes *p
     for (int i = 0; ok && i < 3; i++) {
         char *path = string_format("%s/%s.exr", folder, names[i]);
         /* The object pass by one ray a pixel, as labels are traced; the others as they are. */
-        struct pass_settings settings = pass_settings(p->scene->quality, p->scene->sky);
+        struct pass_settings settings = pass_settings(p->scene->quality, p->light);
         struct view view = view_reduced(&p->view, i == 0 ? 1 : settings.receiver_reduction);
         ok = povray(out, names[i], view.width_px, view.height_px, i == 0 ? "-A -J" : settings.receiver_antialias) && image_read(&pass[i], path, &err);
         free(path);

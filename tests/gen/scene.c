@@ -115,7 +115,7 @@ static void a_minimal_scene_takes_the_stated_defaults(void)
     NEAR(s->cameras[0].camera.params[0], 32, 1e-12, "90 degrees over 64 px are a focal length of 32 px");
     NEAR(s->cameras[0].camera.params[3], 24, 0, "the principal point is the middle");
     OK(!s->has_place && !s->has_time && s->sun == SUN_NONE && s->north_rad == 0, "an overcast sky needs no place and time");
-    NEAR(s->turbidity, 3, 0, "turbidity 3");
+    NEAR(s->turbidity, 2.5, 0, "turbidity 2.5");
     NEAR(s->sun_scale, 1, 0, "sun_scale 1");
     OK(s->ground.normal.z == 1 && s->ground.offset_m == 0, "level ground");
     NEAR(s->ground_albedo[0], 0.2, 0, "albedo 0.2");
