@@ -52,7 +52,7 @@ static inline uint16_t *image_u16(const struct image *image, int x, int y)
     return (uint16_t *)image->data + ((size_t)y * (size_t)image->width_px + (size_t)x) * (size_t)image->channels;
 }
 
-/* Read PNG, JPEG, TIFF or EXR as it is stored: type and channels as in the
+/* Read PNG, JPEG, TIFF, EXR or Radiance HDR as it is stored: type and channels as in the
  * file (a JPEG's EXIF orientation is not applied; half floats become float).
  * Err: ERR_INPUT at `path` when it is missing, truncated or no image. */
 bool image_read(struct image *image, const char *path, struct error *err);

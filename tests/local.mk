@@ -117,7 +117,7 @@ nodist_EXTRA_tests_gen_measured_sky_test_SOURCES = dummy.cxx
 tests_gen_measured_sky_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/sky_povray.test
-tests_gen_sky_povray_test_SOURCES = %D%/gen/sky_povray.c %D%/tap.h
+tests_gen_sky_povray_test_SOURCES = %D%/gen/sky_povray.c %D%/gen/povray.h %D%/tap.h
 nodist_EXTRA_tests_gen_sky_povray_test_SOURCES = dummy.cxx
 tests_gen_sky_povray_test_LDADD = $(GEN_LIBS)
 
@@ -133,7 +133,7 @@ nodist_EXTRA_tests_lib_manifest_test_SOURCES = dummy.cxx
 tests_lib_manifest_test_LDADD = $(LIB_LIBS)
 
 check_PROGRAMS += tests/gen/passes.test
-tests_gen_passes_test_SOURCES = %D%/gen/passes.c %D%/tap.h
+tests_gen_passes_test_SOURCES = %D%/gen/passes.c %D%/gen/povray.h %D%/tap.h
 nodist_EXTRA_tests_gen_passes_test_SOURCES = dummy.cxx
 tests_gen_passes_test_LDADD = $(GEN_LIBS)
 check_PROGRAMS += tests/gen/gait.test

@@ -83,16 +83,15 @@ bool scene_read_light(const struct reading *r, const struct yaml_node *node)
     scene->fill = number_at(node, "fill");
     scene->sun_source = source_of(yaml_get(node, "sun"));
 
-    const char *name = sky_name((int)scene->sky);
     static const struct { const char *key; enum sky_kind sky; const char *why; } only[] = {
         { "turbidity", SKY_CLEAR, "has a meaning under a clear sky only: remove it, or use \"sky: clear\"" },
-        { "cie_type", SKY_CIE, "says which standard sky: remove it, or use \"sky: cie\"" },
-        { "map", SKY_MAP, "is a measured sky: remove it, or use \"sky: map\"" },
+        { "cie_type", SKY_CIE, "means a standard sky: remove it, or use \"sky: cie\"" },
+        { "map", SKY_MAP, "means a measured sky: remove it, or use \"sky: map\"" },
     };
     for (size_t i = 0; i < sizeof only / sizeof *only; i++) {
         const struct yaml_node *given = yaml_get(node, only[i].key);
         if (scene->sky != only[i].sky && given && !given->is_default)
-            return FAIL(r, given, "light.%s: with \"sky: %s\", %s", only[i].key, name, only[i].why);
+            return FAIL(r, given, "light.%s: %s", only[i].key, only[i].why);
     }
     switch (scene->sky) {
     case SKY_CLEAR: return read_sun(r, node, "a clear sky");

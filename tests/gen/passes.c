@@ -4,10 +4,8 @@
 #include "gen/trace/trace.h"
 #include "lib/file.h"
 #include "lib/image.h"
+#include "tests/gen/povray.h"
 #include "tests/tap.h"
-
-#include <sys/wait.h>
-#include <unistd.h>
 
 /* A box of 2 x 1 x 1 m standing at its origin. */
 static struct model box_model(struct material *material, struct mesh *mesh)
@@ -38,34 +36,6 @@ static struct model box_model(struct material *material, struct mesh *mesh)
     *mesh = (struct mesh){ .position_m = position, .normal = normal, .triangle = triangle, .vertices = 24, .triangles = 12 };
     return (struct model){ .meshes = mesh, .mesh_count = 1, .materials = material, .material_count = 1,
                            .min_m = { -1, -0.5, 0 }, .max_m = { 1, 0.5, 1 } };
-}
-
-static bool povray(const char *out, const char *pass, int width, int height, const char *antialias)
-{
-    char *templates = string_format("+L%s/templates", getenv("top_srcdir"));
-    char *in = string_format("+Iframes/%s.pov", pass), *to = string_format("+Oframes/%s.exr", pass);
-    char *w = string_format("+W%d", width), *h = string_format("+H%d", height);
-    char *words = string_format("%s", antialias), *option[4] = { 0 };
-    int n = 0;
-    for (char *word = strtok(words, " "); word && n < 4; word = strtok(NULL, " ")) option[n++] = word;
-    pid_t child = fork();
-    if (child == 0) {
-        if (chdir(out) != 0) _exit(126);
-        freopen("/dev/null", "w", stdout);
-        freopen("povray.log", "w", stderr);
-        execlp("povray", "povray", in, to, w, h, templates, "+L.", "+FE", "-D", "+WT1", "+UA", option[0], option[1],
-               option[2], option[3], (char *)NULL);
-        _exit(127);
-    }
-    int status = 1;
-    waitpid(child, &status, 0);
-    free(words);
-    free(templates);
-    free(in);
-    free(to);
-    free(w);
-    free(h);
-    return status == 0;
 }
 
 static bool render(struct image pass[3], const char *out, const struct passes *p)

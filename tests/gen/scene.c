@@ -30,7 +30,7 @@ static struct scene *read_input(const char *name)
 
 /* A folder with a scene that a test writes, and empty files for it to name. */
 static char folder[] = "scene-test.XXXXXX";
-static const char *const named_files[] = { "street.jpg", "street-wet.jpg", "street.avi", "my.rules", "models/hatchback.obj",
+static const char *const named_files[] = { "street.jpg", "street-wet.jpg", "street.avi", "my.rules", "sky.exr", "models/hatchback.obj",
                                            "models/suv.obj", "models/walker.glb", "place.ply", "scene.yaml" };
 enum { NAMED_FILES = sizeof named_files / sizeof *named_files };
 
@@ -435,6 +435,13 @@ static void text_is_not_guessed_to_be_something_else(void)
         { "paths: [{name: a, use: people, width_m: 2, points_m: [[0, 0], [9, 0]]}]\n"
           "traffic: {people: {count: 2, models: {hatchback: {}}}}\n",
           "traffic.people: model \"hatchback\" is of class car: people only walk here" },
+        { "light: {sky: overcast, sun_scale: 2}\n",
+          "light.sun_scale: has no meaning under an overcast sky: remove it, or use \"sky: clear\"" },
+        { "light: {sky: cie, cie_type: 2, sun_scale: 2}\n",
+          "light.sun_scale: has no meaning under a standard sky of type 1 to 6: they show no sun" },
+        { "light: {sky: map, map: {file: sky.exr, north_px: 1}, sun: none, sun_scale: 2}\n",
+          "light.sun_scale: has no meaning where the map is taken without a sun" },
+        { "light: {sky: overcast, cie_type: 2}\n", "light.cie_type: means a standard sky: remove it, or use \"sky: cie\"" },
         { "lens: {focus_m: 3}\n", "lens: defocus_px and focus_m go together" },
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
@@ -447,6 +454,30 @@ static void text_is_not_guessed_to_be_something_else(void)
     char deep[200] = "seed: ";
     memset(deep + 6, '[', 100);
     OK(!read_sections(deep, &err) && !strcmp(err.text, "nested too deeply"), "a hundred brackets: %s", err.text);
+}
+
+static void every_sky_is_read(void)
+{
+    static const struct { const char *line; enum sky_kind sky; enum sun_kind sun; } skies[] = {
+        { "light: {sky: cie, cie_type: 5}\n", SKY_CIE, SUN_NONE },
+        { "light: {sky: cie, cie_type: 6, sun: {azimuth_deg: 10, elevation_deg: 20}}\n", SKY_CIE, SUN_GIVEN },
+        { "light: {sky: cie, cie_type: 13, sun_scale: 0.5, sun: {azimuth_deg: 10, elevation_deg: 20}}\n", SKY_CIE, SUN_GIVEN },
+        { "light: {sky: cie, cie_type: 13}\nplace: {latitude_deg: 46, longitude_deg: -92}\ntime: 2016-06-23T12:00:00-05:00\n", SKY_CIE, SUN_BY_TIME },
+        { "light: {sky: map, map: {file: sky.exr, north_px: 7.5}}\n", SKY_MAP, SUN_IN_MAP },
+        { "light: {sky: map, sun: none, map: {file: sky.exr, middle_deg: 90}}\n", SKY_MAP, SUN_NONE },
+        { "light: {sky: map, map: {file: sky.exr, middle_deg: 90}, sun: {azimuth_deg: 10, elevation_deg: 20}}\n", SKY_MAP, SUN_GIVEN },
+    };
+    for (size_t i = 0; i < sizeof skies / sizeof *skies; i++) {
+        struct error err = ERROR_NONE;
+        struct scene *s = read_sections(skies[i].line, &err);
+        if (!OK(s, "%.*s: is read %s", (int)strcspn(skies[i].line, "\n"), skies[i].line, err.text)) continue;
+        OK(s->sky == skies[i].sky && s->sun == skies[i].sun, "with its sky and its sun");
+        if (s->sky == SKY_MAP)
+            OK(file_exists(s->map.file) && s->map.by_column == (i == 4) && (i == 4 ? s->map.north_px == 7.5 : fabs(s->map.middle_rad - M_PI / 2) < 1e-12),
+               "its file, and its north");
+        else OK(s->cie_type == (i == 0 ? 5 : i == 1 ? 6 : 13), "its type");
+        scene_destroy(s);
+    }
 }
 
 static void a_file_that_is_not_there(void)
@@ -474,6 +505,7 @@ int main(void)
         the_manuals_examples_are_read(manual);
     }
     text_is_not_guessed_to_be_something_else();
+    every_sky_is_read();
     a_cut_off_file_is_refused_in_words();
     a_file_that_is_not_there();
     free(manual);
