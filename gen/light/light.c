@@ -115,6 +115,11 @@ static void fill_sunny(struct light *light, const struct scene *scene, const str
     }
     scale_sky(&light->sky, daylight.sky);
     for (int c = 0; c < 3; c++) light->sun_color[c] = daylight.sun[c] / M_PI;
+    if (cie && cie->clouded) { /* clouds take as much of the sun as haze would, but of all colours alike */
+        struct daylight clear = daylight_of(light, scene, CLEAR_TURBIDITY_MIN);
+        double share = luminance_of(daylight.sun) / luminance_of(clear.sun);
+        for (int c = 0; c < 3; c++) light->sun_color[c] = clear.sun[c] * share / M_PI;
+    }
 }
 
 /* Clouds are white. In: cie: or NULL for the traditional overcast sky */

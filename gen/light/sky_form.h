@@ -32,6 +32,7 @@ struct cie_sky {
     double a, b, c, d, e;
     bool turns;        /* is not the same all round: the sun's direction matters */
     bool shows_sun;
+    bool clouded;      /* in part: what dims the sun is cloud */
     double turbidity;  /* luminous, typical, where the sun shows */
     double diffuse;    /* illuminance of the level ground by the sky alone, typical, in units of the sun's before the atmosphere */
 };
