@@ -6,6 +6,7 @@
 #include "gen/light/sky_image.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* Of a sky that a formula gives; a measured one has its own, up to SKY_HEIGHT_MAX. */
 enum { SKY_WIDTH = 256, SKY_HEIGHT = 128, SKY_HEIGHT_MAX = 512 };
@@ -95,13 +96,30 @@ static void scale_sky(struct image *sky, const double wanted_lx[3])
             for (int c = 0; c < 3; c++) image_f32(sky, column, row)[c] *= (float)(wanted_lx[c] / M_PI / is[c]);
 }
 
+/* Between broken clouds the air is clear; they take their part of the sun from all of its colours alike, and with
+ * the blue between them they are as white as this haze. */
+#define CLOUDED_TURBIDITY 6
+
+static void take_amount(double rgb[3], double luminance)
+{
+    double is = luminance_of(rgb);
+    for (int c = 0; c < 3; c++) rgb[c] *= luminance / is;
+}
+
 /* The form and the places of the colours by Preetham, the amount and the colour in all by the atmosphere that
  * lets the sun through. In: cie: the brightness of a standard sky in place of his, or NULL */
 static void fill_sunny(struct light *light, const struct scene *scene, const struct cie_sky *cie)
 {
     double turbidity = cie ? cie->turbidity : scene->turbidity;
-    struct clear_form form = clear_form(light->sun_direction, turbidity);
     struct daylight daylight = daylight_of(light, scene, turbidity);
+    if (cie && cie->clouded) {
+        double sun = luminance_of(daylight.sun);
+        daylight = daylight_of(light, scene, CLOUDED_TURBIDITY);
+        memcpy(daylight.sun, daylight_of(light, scene, CLEAR_TURBIDITY_MIN).sun, sizeof daylight.sun);
+        take_amount(daylight.sun, sun);
+    }
+    if (cie) take_amount(daylight.sky, cie->diffuse * daylight_extraterrestrial_lx() * light->sun_direction.z);
+    struct clear_form form = clear_form(light->sun_direction, cie && cie->clouded ? CLOUDED_TURBIDITY : turbidity);
     for (int row = 0; row < light->sky.height_px / 2; row++)
         for (int column = 0; column < light->sky.width_px; column++) {
             struct vec3 d = sky_direction(&light->sky, column, row);
@@ -109,17 +127,8 @@ static void fill_sunny(struct light *light, const struct scene *scene, const str
             clear_form_color(rgb, &form, d);
             for (int c = 0; c < 3; c++) image_f32(&light->sky, column, row)[c] = (float)(luminance * rgb[c]);
         }
-    if (cie) {
-        double wanted = cie->diffuse * daylight_extraterrestrial_lx() * form.sun.z, is = luminance_of(daylight.sky);
-        for (int c = 0; c < 3; c++) daylight.sky[c] *= wanted / is;
-    }
     scale_sky(&light->sky, daylight.sky);
     for (int c = 0; c < 3; c++) light->sun_color[c] = daylight.sun[c] / M_PI;
-    if (cie && cie->clouded) { /* clouds take as much of the sun as haze would, but of all colours alike */
-        struct daylight clear = daylight_of(light, scene, CLEAR_TURBIDITY_MIN);
-        double share = luminance_of(daylight.sun) / luminance_of(clear.sun);
-        for (int c = 0; c < 3; c++) light->sun_color[c] = clear.sun[c] * share / M_PI;
-    }
 }
 
 /* Clouds are white. In: cie: or NULL for the traditional overcast sky */

@@ -1,5 +1,6 @@
 #include "gen/render/passes.h"
 
+#include "gen/light/sky_image.h"
 #include "gen/render/camera_sdl.h"
 #include "gen/render/sdl.h"
 #include "lib/file.h"
@@ -10,10 +11,12 @@
 
 struct pass_settings pass_settings(enum quality quality, const struct light *light)
 {
-    /* Where the sun shows it makes the shadow, with edges, and the sky fills it: points of the
+    /* Where most of the light is the sun's it makes the shadow, with edges, and the sky fills it: points of the
      * sky do. Without it the sky makes all of it: points would show as steps, and areas of the sky
      * are dear, but what they make is smooth. */
-    bool sun = light->has_sun;
+    double level[3] = { light->sun_color[0] * light->sun_direction.z, light->sun_color[1] * light->sun_direction.z,
+                        light->sun_color[2] * light->sun_direction.z };
+    bool sun = light->has_sun && luminance_of(level) > 0.5;
     const char *edges = "+A0.03 +AM2 +R1 -J", *fine = "+A0.03 +AM2 +R2 -J", *none = "-A";
     switch (quality) {
     case QUALITY_DRAFT:
@@ -41,7 +44,7 @@ bool sky_map_write(char path[SKY_MAP_SIZE], const char *out_folder, const struct
 
 bool pass_lights(struct vec3 **towards, size_t *n, const struct scene *scene, const struct light *light, struct error *err)
 {
-    struct pass_settings settings = pass_settings(scene->quality, scene->sky);
+    struct pass_settings settings = pass_settings(scene->quality, light);
     size_t count = settings.sky_lights * (settings.soft_sky_lights ? 8 : 1);
     struct sky_light *sky = calloc(count, sizeof *sky);
     struct vec3 *directions = calloc(count + 1, sizeof *directions);
