@@ -12,20 +12,21 @@
 struct pass_settings pass_settings(enum quality quality, const struct light *light)
 {
     /* Where most of the light is the sun's it makes the shadow, with edges, and the sky fills it: points of the
-     * sky do. Without it the sky makes all of it: points would show as steps, and areas of the sky
-     * are dear, but what they make is smooth. */
+     * sky do. Where the sky makes most of it points would show as steps, and areas of the sky are dear; what they
+     * make is smooth, and needs few pixels unless the sun shows as well. */
+    bool sun = light->has_sun;
     double level[3] = { light->sun_color[0] * light->sun_direction.z, light->sun_color[1] * light->sun_direction.z,
                         light->sun_color[2] * light->sun_direction.z };
-    bool sun = light->has_sun && luminance_of(level) > 0.5;
+    bool soft = !sun || luminance_of(level) < 0.5;
     const char *edges = "+A0.03 +AM2 +R1 -J", *fine = "+A0.03 +AM2 +R2 -J", *none = "-A";
     switch (quality) {
     case QUALITY_DRAFT:
         return (struct pass_settings){ 10, false, 30, 0.9, sun ? 1 : 2, none, none };
     case QUALITY_HIGH:
-        return (struct pass_settings){ 48, !sun, 200, 0.4, 1, fine, sun ? fine : none };
+        return (struct pass_settings){ 48, soft, 200, 0.4, 1, fine, sun ? fine : none };
     case QUALITY_STANDARD:
     default:
-        return (struct pass_settings){ sun ? 16 : 24, !sun, 40, 0.8, sun ? 1 : 2, edges, sun ? edges : none };
+        return (struct pass_settings){ soft ? 24 : 16, soft, 40, 0.8, sun ? 1 : 2, edges, sun ? edges : none };
     }
 }
 
