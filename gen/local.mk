@@ -34,7 +34,6 @@ gen_libgen_a_SOURCES = \
   %D%/motion/crossing.c %D%/motion/crossing.h \
   %D%/motion/crowd.c %D%/motion/crowd.h \
   %D%/moment.c %D%/moment.h \
-  %D%/motion/draw.c %D%/motion/draw.h \
   %D%/motion/drive.c \
   %D%/motion/gait.c %D%/motion/gait.h \
   %D%/motion/population.c %D%/motion/population.h \

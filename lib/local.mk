@@ -3,6 +3,7 @@ noinst_LIBRARIES += lib/libstaffage.a
 lib_libstaffage_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(GEOGRAPHIC_CFLAGS) $(JANSSON_CFLAGS)
 lib_libstaffage_a_SOURCES = \
   %D%/class.c %D%/class.h \
+  %D%/draw.c %D%/draw.h \
   %D%/error.c %D%/error.h \
   %D%/file.c %D%/file.h \
   %D%/image.c %D%/image.h %D%/image_io.cpp \

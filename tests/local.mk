@@ -211,10 +211,10 @@ tests_gen_label_test_SOURCES = %D%/gen/label.c %D%/gen/solid.h %D%/tap.h
 nodist_EXTRA_tests_gen_label_test_SOURCES = dummy.cxx
 tests_gen_label_test_LDADD = $(GEN_LIBS)
 
-check_PROGRAMS += tests/gen/draw.test
-tests_gen_draw_test_SOURCES = %D%/gen/draw.c %D%/tap.h
-nodist_EXTRA_tests_gen_draw_test_SOURCES = dummy.cxx
-tests_gen_draw_test_LDADD = $(GEN_LIBS)
+check_PROGRAMS += tests/lib/draw.test
+tests_lib_draw_test_SOURCES = %D%/lib/draw.c %D%/tap.h
+nodist_EXTRA_tests_lib_draw_test_SOURCES = dummy.cxx
+tests_lib_draw_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/path.test
 tests_gen_path_test_SOURCES = %D%/gen/path.c %D%/tap.h

@@ -1,6 +1,6 @@
 #include "gen/motion/population.h"
 
-#include "gen/motion/draw.h"
+#include "lib/draw.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "gen/motion/draw.h"
+#include "lib/draw.h"
 
 #include <math.h>
 

@@ -1,10 +1,10 @@
 /* Random draws that depend on nothing but what they are for: (seed, frame, entity, purpose, index). */
-#ifndef STAFFAGE_GEN_DRAW_H
-#define STAFFAGE_GEN_DRAW_H
+#ifndef STAFFAGE_LIB_DRAW_H
+#define STAFFAGE_LIB_DRAW_H
 
 #include <stdint.h>
 
-enum draw_purpose { DRAW_LANE, DRAW_POSITION, DRAW_KIND, DRAW_COLOR, DRAW_SPEED, DRAW_PHASE, DRAW_OFFSET, DRAW_TIME };
+enum draw_purpose { DRAW_LANE, DRAW_POSITION, DRAW_KIND, DRAW_COLOR, DRAW_SPEED, DRAW_PHASE, DRAW_OFFSET, DRAW_TIME, DRAW_GRAIN };
 
 struct draw_key { uint64_t seed; int64_t frame; uint32_t entity; enum draw_purpose purpose; };
 
