@@ -6,6 +6,7 @@
 #include "gen/trace/plane_depth.h"
 #include "gen/world/prism.h"
 #include "lib/file.h"
+#include "lib/manifest.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -124,8 +125,9 @@ bool frame_ground_at(struct vec3 *p, const struct frame *f, struct vec2 q)
 static int blur_reach_px(const struct frame *f)
 {
     const struct scene *s = f->scene;
-    if (s->softness_px <= 0 && s->defocus_px <= 0 && !f->motion.data) return 0;
-    double reach = ceil(3 * s->softness_px) + 2, most = 0;
+    double softness_px = s->softness_auto && f->photograph[0] ? MANIFEST_SOFTNESS_AUTO_MAX_PX : s->softness_px;
+    if (softness_px <= 0 && s->defocus_px <= 0 && !f->motion.data) return 0;
+    double reach = ceil(3 * softness_px) + 2, most = 0;
     for (size_t i = 0; s->defocus_px > 0 && i < f->moment.n; i++) {
         struct vec3 way = vec3_sub(f->moment.entities[i].world_from_entity.translation, f->shot->world_from_camera.translation);
         most = fmax(most, s->defocus_px * fabs(1 - s->focus_m / fmax(vec3_norm(way), 0.1)) / 2);

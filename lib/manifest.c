@@ -3,6 +3,7 @@
 #include "lib/file.h"
 #include "lib/json_walk.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -175,9 +176,19 @@ static bool walk_weather(struct walk *walk, struct manifest *m)
                         !walk_real(walk, "exposure_distance_m", &m->exposure_distance_m, 0, 1e300)))
         return false;
     if (!walk_bool(walk, "has_motion", &m->has_motion) || !walk_real(walk, "defocus_px", &m->defocus_px, 0, 1000) ||
-        !walk_real(walk, "focus_m", &m->focus_m, 0, 1e300) || !walk_real(walk, "softness_px", &m->softness_px, 0, 100))
+        !walk_real(walk, "focus_m", &m->focus_m, 0, 1e300))
         return false;
     return m->defocus_px <= 0 || m->focus_m > 0 || walk_wrong(walk, "focus_m", "must be more than 0 where there is a defocus");
+}
+
+/* What is done to the picture as the camera did it. */
+static bool walk_hand(struct walk *walk, struct manifest *m)
+{
+    return walk_bool(walk, "softness_auto", &m->softness_auto) && walk_real(walk, "softness_px", &m->softness_px, 0, 100) &&
+           walk_bool(walk, "grain_auto", &m->grain_auto) && walk_real(walk, "grain", &m->grain, 0, 100) &&
+           walk_bool(walk, "vignetting_auto", &m->vignetting_auto) && walk_real(walk, "vignetting", &m->vignetting, 0, 0.95) &&
+           walk_bool(walk, "highlights_auto", &m->highlights_auto) && walk_real(walk, "highlights", &m->highlights, 0, 1) &&
+           walk_bool(walk, "compression_auto", &m->compression_auto) && walk_int(walk, "seed", &m->seed, 0, INT_MAX);
 }
 
 static bool walk_transfer(struct walk *walk, struct manifest *m)
@@ -208,7 +219,7 @@ static bool walk_manifest(struct walk *walk, struct manifest *m)
         return false;
     return walk_bool(walk, "white_balance", &m->white_balance) &&
            walk_reals(walk, "ground_radiance", m->ground_radiance, 3) && walk_transfer(walk, m) && walk_place(walk, m) &&
-           walk_weather(walk, m) && walk_entities(walk, m) && walk_leave(walk);
+           walk_weather(walk, m) && walk_hand(walk, m) && walk_entities(walk, m) && walk_leave(walk);
 }
 
 static bool walk_version(struct walk *walk)

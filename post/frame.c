@@ -4,6 +4,7 @@
 #include "post/depth.h"
 #include "post/exposure.h"
 #include "post/frame_input.h"
+#include "post/hand.h"
 #include "post/mask.h"
 #include "post/mist.h"
 #include "post/optics.h"
@@ -77,20 +78,6 @@ static bool transfer(struct image *out, const struct frame_input *f, const struc
     return ok;
 }
 
-/* Only what changed goes back to 8 bits: every other pixel keeps the photograph's own. */
-static void paste_changes(struct image *rgb, const struct image *merged, const struct image *linear, struct rect w)
-{
-    for (int y = 0; y < merged->height_px; y++) {
-        const float *now = image_f32(merged, 0, y), *before = image_f32(linear, 0, y);
-        uint8_t *to = image_u8(rgb, w.x0, w.y0 + y);
-        for (int i = 0; i < 3 * merged->width_px; i++) {
-            if (now[i] == before[i]) continue;
-            float v = now[i] > 0 ? now[i] < 1 ? now[i] : 1 : 0;
-            to[i] = (uint8_t)(srgb_from_linear(v) * 255 + 0.5f);
-        }
-    }
-}
-
 /* What air and lens do to the layers. */
 static bool through_optics(struct frame_input *f, const struct image *linear, const struct exposure *exposure, struct error *err)
 {
@@ -108,23 +95,60 @@ static bool through_optics(struct frame_input *f, const struct image *linear, co
     return ok;
 }
 
+static bool find_hand(struct hand *hand, struct frame_input *f, struct error *err)
+{
+    if (!hand_measure(hand, &f->manifest, &f->rgb, f->photograph, &f->layers[OBJECT], err)) return blame(err, f->photograph);
+    char *path = path_in_folder(f, "camera.json", err);
+    bool ok = path && hand_write(path, hand, &f->manifest, err);
+    free(path);
+    f->manifest.softness_px = hand->softness_px;
+    return ok;
+}
+
+/* Where in the photograph the exposure was found: there it is right, whatever the lens takes away. */
+static struct vec2 fitted_px(const struct manifest *m, const struct exposure *e)
+{
+    if (e->fitted && e->samples == 0)
+        return (struct vec2){ (e->patch_px.x0 + e->patch_px.x1) / 2.0, (e->patch_px.y0 + e->patch_px.y1) / 2.0 };
+    struct vec2 mean = { m->width_px / 2.0, m->height_px / 2.0 };
+    for (size_t i = 0; e->fitted && i < m->exposure_samples; i++) {
+        double n = (double)i + 1;
+        mean = (struct vec2){ mean.x + (m->exposure_sample_px[i].x - mean.x) / n, mean.y + (m->exposure_sample_px[i].y - mean.y) / n };
+    }
+    return mean;
+}
+
+/* The lens darkens before it blurs; the sensor's highlights come after. */
+static bool through_lens(struct frame_input *f, const struct hand *hand, const struct image *linear, const struct exposure *exposure,
+                         struct error *err)
+{
+    const struct manifest *m = &f->manifest;
+    struct image *object = &f->layers[OBJECT];
+    if (hand->fall_off > 0) vignette_shade(object, hand->fall_off, fitted_px(m, exposure), m->view.window_px, m->width_px, m->height_px);
+    if (!through_optics(f, linear, exposure, err)) return false;
+    if (hand->knee < 1) highlights_keep(object, hand->knee, exposure->k);
+    return true;
+}
+
 /* Put the layers into f->rgb. */
 static bool merge(struct frame_input *f, const struct image *classes, struct error *err)
 {
     const struct manifest *m = &f->manifest;
     struct image cut = { 0 }, linear = { 0 }, merged = { 0 };
     struct exposure exposure;
-    bool ok = find_exposure(&exposure, f, err) && window_cut(&cut, &f->rgb, m->view.window_px, err) &&
-              image_linear_from_srgb(&linear, &cut, err) && through_optics(f, &linear, &exposure, err);
+    struct hand hand;
+    const struct image *visible = m->has_shares ? &f->visible : NULL;
+    bool ok = find_exposure(&exposure, f, err) && find_hand(&hand, f, err) && window_cut(&cut, &f->rgb, m->view.window_px, err) &&
+              image_linear_from_srgb(&linear, &cut, err) && through_lens(f, &hand, &linear, &exposure, err);
     if (ok) {
         struct transfer_input in = {
             .photograph = &linear, .object = &f->layers[OBJECT], .plane = &f->layers[PLANE], .shadow = &f->layers[SHADOW],
-            .visible = m->has_shares ? &f->visible : NULL, .receiver = m->has_shares ? &f->receiver : NULL,
+            .visible = visible, .receiver = m->has_shares ? &f->receiver : NULL,
             .exposure = { exposure.k[0], exposure.k[1], exposure.k[2] },
         };
         ok = transfer(&merged, f, classes, &in, err);
     }
-    if (ok) paste_changes(&f->rgb, &merged, &linear, m->view.window_px);
+    ok = ok && hand_develop(&f->rgb, &hand, m, &linear, &merged, &f->layers[OBJECT], visible, err);
     image_release(&cut);
     image_release(&linear);
     image_release(&merged);

@@ -1,15 +1,21 @@
 # staffage-post: from passes and photograph to the dataset; staffage-stats: what is in it.
 noinst_LIBRARIES += post/libpost.a
-post_libpost_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(JANSSON_CFLAGS)
+post_libpost_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(JANSSON_CFLAGS) $(JPEG_CFLAGS)
 post_libpost_a_SOURCES = \
   %D%/before.c %D%/before.h \
+  %D%/compression.c %D%/compression.h \
   %D%/defocus.c %D%/defocus.h \
   %D%/depth.c %D%/depth.h \
+  %D%/edge.c %D%/edge.h \
   %D%/exposure.c %D%/exposure.h \
+  %D%/flat.c %D%/flat.h \
   %D%/frame.c %D%/frame.h \
   %D%/frame_input.c %D%/frame_input.h \
   %D%/frame_list.c %D%/frame_list.h \
+  %D%/grain.c %D%/grain.h %D%/grain_add.c \
   %D%/ground_light.c %D%/ground_light.h \
+  %D%/hand.c %D%/hand.h %D%/hand_json.c \
+  %D%/highlights.c %D%/highlights.h \
   %D%/input.c %D%/input.h \
   %D%/kernel.c %D%/kernel.h \
   %D%/layer.c %D%/layer.h \
@@ -26,8 +32,9 @@ post_libpost_a_SOURCES = \
   %D%/stats.c %D%/stats.h %D%/stats_text.c \
   %D%/transfer.h %D%/transfer_caught.c \
   %D%/transfer_alpha.c %D%/transfer_layers.c %D%/transfer_ratio.c %D%/transfer_threshold.c \
+  %D%/vignette.c %D%/vignette.h \
   %D%/window.c %D%/window.h
-POST_LIBS = post/libpost.a $(LIB_LIBS)
+POST_LIBS = post/libpost.a $(LIB_LIBS) $(JPEG_LIBS)
 
 bin_PROGRAMS += staffage-post
 staffage_post_SOURCES = %D%/main.c

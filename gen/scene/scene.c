@@ -53,13 +53,26 @@ bool scene_refuse_given(const struct reading *r, const struct yaml_node *mapping
     return true;
 }
 
+/* A trait of the camera: auto, none (0) or a number. Returns whether it is to be measured. */
+static bool read_trait(double *given, const struct yaml_node *node)
+{
+    *given = 0;
+    if (!strcmp(node->text, "auto")) return true;
+    if (strcmp(node->text, "none") != 0) *given = schema_number(node);
+    return false;
+}
+
 static void read_lens_effects(const struct reading *r, const struct yaml_node *lens, const struct yaml_node *weather)
 {
     struct scene *scene = r->scene;
     const struct yaml_node *focus = yaml_get(lens, "focus_m");
     scene->exposure_s = number_at(lens, "exposure_s");
     scene->defocus_px = number_at(lens, "defocus_px");
-    scene->softness_px = number_at(lens, "softness_px");
+    scene->softness_auto = read_trait(&scene->softness_px, yaml_get(lens, "softness_px"));
+    scene->grain_auto = read_trait(&scene->grain, yaml_get(lens, "grain"));
+    scene->vignetting_auto = read_trait(&scene->vignetting, yaml_get(lens, "vignetting"));
+    scene->highlights_auto = read_trait(&scene->highlights, yaml_get(lens, "highlights"));
+    scene->compression_auto = !strcmp(yaml_get(lens, "compression")->text, "auto");
     if (focus) scene->focus_m = schema_number(focus);
     scene->has_mist = weather != NULL;
     if (!weather) return;

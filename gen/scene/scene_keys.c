@@ -20,6 +20,7 @@ NAMES(model_axis_name, [AXIS_POS_X] = "+x", [AXIS_NEG_X] = "-x", [AXIS_POS_Y] = 
       [AXIS_POS_Z] = "+z", [AXIS_NEG_Z] = "-z", "x", "y", "z")
 NAMES(sky_name, [SKY_CLEAR] = "clear", [SKY_OVERCAST] = "overcast", [SKY_CIE] = "cie", [SKY_MAP] = "map")
 NAMES(sun_name, "auto", "none")
+NAMES(trait_name, "auto", "none")
 NAMES(transfer_name, [TRANSFER_LAYERS] = "layers", [TRANSFER_RATIO] = "ratio", [TRANSFER_THRESHOLD] = "threshold",
       [TRANSFER_ALPHA] = "alpha")
 NAMES(overwrite_name, [OVERWRITE_ABOVE] = "above", [OVERWRITE_BELOW] = "below")
@@ -201,7 +202,11 @@ static const struct schema_key keys[] = {
     { "lens.exposure_s", TYPE_NUMBER, "s", .preset = "0", LIMITS(0, 10) },
     { "lens.defocus_px", TYPE_NUMBER, "px", .preset = "0", LIMITS(0, 500) },
     { "lens.focus_m", TYPE_NUMBER, "m", ABOVE(0, INFINITY) },
-    { "lens.softness_px", TYPE_NUMBER, "px", .preset = "0", LIMITS(0, 100) },
+    { "lens.softness_px", TYPE_NUMBER | TYPE_CHOICE, "px", .preset = "auto", LIMITS(0, 100), .choice = trait_name },
+    { "lens.grain", TYPE_NUMBER | TYPE_CHOICE, .preset = "auto", LIMITS(0, 100), .choice = trait_name },
+    { "lens.compression", TYPE_CHOICE, .preset = "auto", .choice = trait_name },
+    { "lens.vignetting", TYPE_NUMBER | TYPE_CHOICE, .preset = "none", LIMITS(0, 0.95), .choice = trait_name },
+    { "lens.highlights", TYPE_NUMBER | TYPE_CHOICE, .preset = "none", LIMITS(0.01, 1), .choice = trait_name },
 
     { "transfer", TYPE_MAPPING, SECTION },
     { "transfer.method", TYPE_CHOICE, .preset = "layers", .choice = transfer_name },

@@ -165,7 +165,7 @@ static bool check_time(const struct check *c, const struct where *where, const s
 static bool check_scalar(const struct check *c, const struct schema_key *key, const struct where *where,
                          const struct yaml_node *node)
 {
-    double color[3];
+    double color[3], number;
     bool boolean;
     int first, end, step;
     unsigned types = key->types;
@@ -173,6 +173,7 @@ static bool check_scalar(const struct check *c, const struct schema_key *key, co
     if (types & TYPE_NUMBER && good_number(key, node)) return true;
     if (types & TYPE_INTEGER && good_integer(key, node)) return true;
     if (types & TYPE_BOOLEAN && yaml_boolean(&boolean, node)) return true;
+    if (types & TYPE_NUMBER && types & TYPE_CHOICE && yaml_number(&number, node)) return unexpected(c, key, where, node);
     if (types & TYPE_CHOICE) return schema_choice(key->choice, node) >= 0 || unknown_choice(c, key, where, node);
     if (types & TYPE_TEXT && good_text(key, node)) return true;
     if (types & TYPE_FILE && good_text(key, node)) return check_file(c, where, node);

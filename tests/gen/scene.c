@@ -443,6 +443,8 @@ static void text_is_not_guessed_to_be_something_else(void)
           "light.sun_scale: has no meaning where the map is taken without a sun" },
         { "light: {sky: overcast, cie_type: 2}\n", "light.cie_type: means a standard sky: remove it, or use \"sky: cie\"" },
         { "lens: {focus_m: 3}\n", "lens: defocus_px and focus_m go together" },
+        { "lens: {grain: 101}\n", "lens.grain: expected number from 0 to 100 or one of auto, none, found 101" },
+        { "lens: {grain: aut}\n", "lens: unknown grain \"aut\" (did you mean \"auto\"?)" },
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         struct error err = ERROR_NONE;

@@ -47,6 +47,11 @@ static struct manifest whole_manifest(void)
         .defocus_px = 1 / 3.0,
         .focus_m = 20.5,
         .softness_px = 0.7,
+        .grain_auto = true,
+        .compression_auto = true,
+        .vignetting = 0.3,
+        .highlights = 0.6,
+        .seed = 11,
         .entities = entities,
         .entity_count = 2,
     };
@@ -83,6 +88,9 @@ static bool same(const struct manifest *a, const struct manifest *b)
            !strcmp(a->depth, b->depth) && a->has_mist == b->has_mist && a->exposure_distance_m == b->exposure_distance_m && a->visibility_m == b->visibility_m &&
            !memcmp(a->haze, b->haze, sizeof a->haze) && a->has_motion == b->has_motion &&
            a->defocus_px == b->defocus_px && a->focus_m == b->focus_m && a->softness_px == b->softness_px &&
+           a->softness_auto == b->softness_auto && a->grain_auto == b->grain_auto && a->grain == b->grain &&
+           a->vignetting_auto == b->vignetting_auto && a->vignetting == b->vignetting && a->highlights_auto == b->highlights_auto &&
+           a->highlights == b->highlights && a->compression_auto == b->compression_auto && a->seed == b->seed &&
            a->exposure_samples == b->exposure_samples &&
            (a->exposure_samples == 0 ||
             !memcmp(a->exposure_sample_px, b->exposure_sample_px, a->exposure_samples * sizeof *a->exposure_sample_px));
@@ -161,12 +169,12 @@ int main(void)
     manifest = whole_manifest();
     bool done = manifest_write(path, &manifest, &err) && file_read(&first, &size, path, &err) &&
                 manifest_write(path, &manifest, &err) && file_read(&second, &size, path, &err);
-    OK(done && !strcmp(first, second) && !strncmp(first, "{\n \"version\": 2,\n \"frame\": \"000123\"", 33),
+    OK(done && !strcmp(first, second) && !strncmp(first, "{\n \"version\": 3,\n \"frame\": \"000123\"", 33),
        "the same manifest is the same bytes, version first");
 
-    refuses("\"version\": 2", "\"version\": 3", "\"version\" is 3, this program reads 2", "another version");
-    refuses("\"version\": 2", "\"version\": 2.0", "\"version\" must be a whole number", "a version that is no number of ours");
-    refuses("\"version\": 2,", "", "\"version\" is missing", "a file without a version");
+    refuses("\"version\": 3", "\"version\": 4", "\"version\" is 4, this program reads 3", "another version");
+    refuses("\"version\": 3", "\"version\": 3.0", "\"version\" must be a whole number", "a version that is no number of ours");
+    refuses("\"version\": 3,", "", "\"version\" is missing", "a file without a version");
     refuses("\"empty\": false,", "", "\"empty\" is missing", "a missing key");
     refuses("\"params\"", "\"parms\"", "\"camera.params\" is missing", "a missing key of an object");
     refuses("\"id\": 65535,", "", "\"entities[1].id\" is missing", "a missing key of an entity");

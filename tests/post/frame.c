@@ -350,6 +350,42 @@ static void check_transfers(void)
     image_release(&rgb);
 }
 
+/* The camera's hand, through the whole program: measured where it is asked for, and only where something changes. */
+static void check_hand(const char *f)
+{
+    struct manifest m = manifest_of(f);
+    struct image plain, grainy, again;
+    struct error err = ERROR_NONE;
+    save_manifest(f, &m);
+    OK(post(f) == 0 && image_read(&plain, in_out("rgb/%s.png", f), &err) && file_exists(in_out("frames/%s/camera.json", f)),
+       "what the camera did is written: %s", said);
+    m.grain = 12;
+    m.vignetting = 0.2;
+    m.highlights = 0.7;
+    m.softness_auto = m.compression_auto = true; /* of a PNG as small as this: nothing */
+    m.seed = 3;
+    save_manifest(f, &m);
+    if (!OK(post(f) == 0 && image_read(&grainy, in_out("rgb/%s.png", f), &err), "grain is given: %s", said)) return;
+    int entity = 0, elsewhere = 0;
+    for (int i = 0; i < W * H; i++) {
+        bool same = !memcmp((uint8_t *)plain.data + 3 * i, (uint8_t *)grainy.data + 3 * i, 3);
+        if (i / W == 20 && (i % W == 21 || i % W == 22)) entity += !same;
+        else elsewhere += !same;
+    }
+    NEAR(entity, 2, 0, "the entity and its edge change");
+    NEAR(elsewhere, 0, 0, "and nothing else");
+    OK(post(f) == 0 && image_read(&again, in_out("rgb/%s.png", f), &err), "once more");
+    OK(!memcmp(grainy.data, again.data, image_size(&again)), "the same grain comes out");
+    image_release(&again);
+    m.seed = 4;
+    save_manifest(f, &m);
+    OK(post(f) == 0 && image_read(&again, in_out("rgb/%s.png", f), &err), "with another seed");
+    OK(memcmp(grainy.data, again.data, image_size(&again)) != 0, "other grain");
+    image_release(&again);
+    image_release(&grainy);
+    image_release(&plain);
+}
+
 /* Own labels, a view that nobody took, mist and lens, through the whole program. */
 static void check_flight(void)
 {
@@ -417,6 +453,8 @@ static void check_flight(void)
     OK(!memcmp(got.data, before.data, image_size(&got)), "are not blurred");
     image_release(&got);
     image_release(&before);
+
+    check_hand(f);
 
     m = manifest_of(f);
     m.new_view = true;

@@ -88,3 +88,28 @@ check_PROGRAMS += tests/post/spread.test
 tests_post_spread_test_SOURCES = %D%/spread.c %D%/layers.h tests/tap.h
 nodist_EXTRA_tests_post_spread_test_SOURCES = dummy.cxx
 tests_post_spread_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/compression.test
+tests_post_compression_test_SOURCES = %D%/compression.c %D%/taken.h tests/tap.h
+nodist_EXTRA_tests_post_compression_test_SOURCES = dummy.cxx
+tests_post_compression_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/edge.test
+tests_post_edge_test_SOURCES = %D%/edge.c %D%/taken.h tests/tap.h
+nodist_EXTRA_tests_post_edge_test_SOURCES = dummy.cxx
+tests_post_edge_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/grain.test
+tests_post_grain_test_SOURCES = %D%/grain.c %D%/taken.h tests/tap.h
+nodist_EXTRA_tests_post_grain_test_SOURCES = dummy.cxx
+tests_post_grain_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/highlights.test
+tests_post_highlights_test_SOURCES = %D%/highlights.c %D%/taken.h tests/tap.h
+nodist_EXTRA_tests_post_highlights_test_SOURCES = dummy.cxx
+tests_post_highlights_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/vignette.test
+tests_post_vignette_test_SOURCES = %D%/vignette.c %D%/taken.h tests/tap.h
+nodist_EXTRA_tests_post_vignette_test_SOURCES = dummy.cxx
+tests_post_vignette_test_LDADD = $(POST_LIBS)

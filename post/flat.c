@@ -1,0 +1,50 @@
+#include "post/flat.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define STEP_PX 8
+#define COUNT_MAX 40000.0
+
+void flat_patches_release(struct flat_patches *patches)
+{
+    free(patches->patch);
+    *patches = (struct flat_patches){ 0 };
+}
+
+static bool look(struct flat_patch *patch, const struct image *rgb, int x, int y)
+{
+    /* Of whole numbers, with twice the distance from the middle: exact. */
+    int64_t sum = 0, squares = 0, right = 0, down = 0, spread = 0;
+    for (int j = 0; j < FLAT_SIDE_PX; j++) {
+        const uint8_t *px = image_u8(rgb, x, y + j);
+        int row = 2 * j + 1 - FLAT_SIDE_PX;
+        spread += (int64_t)row * row * FLAT_SIDE_PX;
+        for (int i = 0; i < FLAT_SIDE_PX; i++, px += 3) {
+            for (int c = 0; c < 3; c++)
+                if (px[c] == 0 || px[c] == 255) return false;
+            int v = px[0] + px[1] + px[2];
+            sum += v;
+            squares += v * v;
+            right += v * (2 * i + 1 - FLAT_SIDE_PX);
+            down += v * row;
+        }
+    }
+    const double n = FLAT_SIDE_PX * FLAT_SIDE_PX, s = (double)spread, mean = (double)sum / n;
+    double residual = (double)squares - n * mean * mean - ((double)right * (double)right + (double)down * (double)down) / s;
+    *patch = (struct flat_patch){ x, y, mean / 3, 2 * (double)right / s / 3, 2 * (double)down / s / 3, fmax(residual, 0) / 3 / (n - 3) };
+    return true;
+}
+
+bool flat_patches_find(struct flat_patches *patches, const struct image *rgb, struct error *err)
+{
+    int step = (int)ceil(sqrt((double)rgb->width_px * rgb->height_px / COUNT_MAX));
+    if (step < STEP_PX) step = STEP_PX;
+    size_t room = ((size_t)(rgb->width_px / step) + 1) * ((size_t)(rgb->height_px / step) + 1);
+    *patches = (struct flat_patches){ malloc(room * sizeof *patches->patch), 0 };
+    if (!patches->patch) return error_set(err, ERR_MEMORY, "no memory for the patches of a photograph");
+    for (int y = 0; y + FLAT_SIDE_PX <= rgb->height_px; y += step)
+        for (int x = 0; x + FLAT_SIDE_PX <= rgb->width_px; x += step)
+            if (look(&patches->patch[patches->count], rgb, x, y)) patches->count++;
+    return true;
+}

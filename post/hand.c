@@ -1,0 +1,162 @@
+#include "post/hand.h"
+
+#include "post/flat.h"
+#include "post/transfer.h"
+#include "post/window.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define EDGES_MIN 12        /* to tell how sharp a photograph is */
+#define LAYER_EDGE_PX 0.55  /* of a layer with fewer: what POV-Ray's anti-aliasing leaves at straight outlines */
+
+/* --- measuring --- */
+
+static void take_vignetting(struct hand *h, const struct manifest *m, const struct flat_patches *patches)
+{
+    if (!m->vignetting_auto) {
+        h->fall_off = m->vignetting;
+        return;
+    }
+    vignette_measure(&h->vignette, patches, m->width_px, m->height_px);
+    if (h->vignette.agree) h->fall_off = h->vignette.fall_off;
+}
+
+static void take_highlights(struct hand *h, const struct manifest *m, const struct image *rgb)
+{
+    h->knee = m->highlights > 0 ? m->highlights : 1;
+    if (!m->highlights_auto) return;
+    highlights_measure(&h->highlights, rgb);
+    h->knee = h->highlights.told ? h->highlights.knee : 1;
+}
+
+/* A picture that was scaled has no blocks any more. */
+static bool take_compression(struct hand *h, const struct manifest *m, const char *path, struct error *err)
+{
+    if (!m->compression_auto) return true;
+    if (!compression_read(&h->compression, path, err)) return false;
+    if (h->compression.width_px != m->width_px || h->compression.height_px != m->height_px) h->compression.found = false;
+    return true;
+}
+
+/* So much that the layer's outlines become as wide as the photograph's sharp edges: those of things, and not of
+ * shadows or of what is out of focus. */
+static bool take_softness(struct hand *h, const struct manifest *m, const struct image *rgb, const struct image *object, struct error *err)
+{
+    if (!m->softness_auto) return true;
+    if (!edges_measure(&h->edges, rgb, NULL, err) || !edges_of_layer(&h->layer_edges, object, err)) return false;
+    if (h->edges.count < EDGES_MIN) return true;
+    double own_px = h->layer_edges.count < EDGES_MIN ? LAYER_EDGE_PX : h->layer_edges.sigma_px[0];
+    h->softness_px = fmin(edge_softness(h->edges.sigma_px[0], own_px), MANIFEST_SOFTNESS_AUTO_MAX_PX);
+    return true;
+}
+
+static bool measure(struct hand *h, const struct manifest *m, const struct image *rgb, const char *path, const struct image *object,
+                    struct error *err)
+{
+    struct flat_patches patches = { 0 };
+    if ((m->grain_auto || m->vignetting_auto) && !flat_patches_find(&patches, rgb, err)) return false;
+    bool ok = (!m->grain_auto || grain_measure(&h->grain, rgb, &patches, err)) &&
+              take_softness(h, m, rgb, object, err) && take_compression(h, m, path, err);
+    if (ok && m->grain_auto) h->has_grain = h->grain.patches > 0;
+    take_vignetting(h, m, &patches);
+    take_highlights(h, m, rgb);
+    flat_patches_release(&patches);
+    return ok;
+}
+
+bool hand_measure(struct hand *hand, const struct manifest *m, const struct image *rgb, const char *path,
+                  const struct image *object, struct error *err)
+{
+    struct hand h = { .softness_px = m->softness_auto ? 0 : m->softness_px, .knee = 1 };
+    if (!m->grain_auto && m->grain > 0) {
+        h.has_grain = true;
+        h.grain = grain_white(m->grain);
+    }
+    /* No camera took a new view: what is to be measured is not there. */
+    struct manifest given = *m;
+    if (m->new_view) given.softness_auto = given.grain_auto = given.vignetting_auto = given.highlights_auto = given.compression_auto = false;
+    if (!measure(&h, &given, rgb, path, object, err)) return false;
+    *hand = h;
+    return true;
+}
+
+/* --- doing --- */
+
+static uint8_t byte_of(float level)
+{
+    return (uint8_t)((level > 0 ? level < 255 ? level : 255 : 0) + 0.5f);
+}
+
+/* Values that changed, as levels; those that did not keep theirs, and so do those that stay the same byte. */
+static bool levels_take(struct image *levels, const struct image *rgb, const struct image *before, const struct image *after,
+                        struct rect w, struct error *err)
+{
+    if (!image_init(levels, after->width_px, after->height_px, 3, PIXEL_F32, err)) return false;
+    for (int y = 0; y < after->height_px; y++) {
+        const float *now = image_f32(after, 0, y), *then = image_f32(before, 0, y);
+        const uint8_t *own = image_u8(rgb, w.x0, w.y0 + y);
+        float *to = image_f32(levels, 0, y);
+        for (int i = 0; i < 3 * after->width_px; i++) {
+            float v = now[i] > 0 ? now[i] < 1 ? now[i] : 1 : 0;
+            to[i] = now[i] == then[i] ? own[i] : srgb_from_linear(v) * 255;
+        }
+    }
+    return true;
+}
+
+/* Give each value of the window that changed to `to`: its own there keeps every bit. */
+static void put_changes(struct image *to, const struct image *levels, const struct image *rgb, struct rect w)
+{
+    for (int y = 0; y < levels->height_px; y++) {
+        const float *level = image_f32(levels, 0, y);
+        const uint8_t *own = image_u8(rgb, w.x0, w.y0 + y);
+        uint8_t *out = image_u8(to, w.x0, w.y0 + y);
+        for (int i = 0; i < 3 * levels->width_px; i++) out[i] = byte_of(level[i]) == own[i] ? own[i] : byte_of(level[i]);
+    }
+}
+
+static bool compress(struct image *levels, const struct image *rgb, const struct compression *c, struct rect w, struct error *err)
+{
+    struct image filed;
+    struct rect whole = { 0, 0, rgb->width_px, rgb->height_px };
+    if (!window_cut(&filed, rgb, whole, err)) return false;
+    put_changes(&filed, levels, rgb, w);
+    bool ok = compression_apply(&filed, w, c, err);
+    for (int y = 0; ok && y < levels->height_px; y++) {
+        float *level = image_f32(levels, 0, y);
+        const uint8_t *own = image_u8(rgb, w.x0, w.y0 + y), *now = image_u8(&filed, w.x0, w.y0 + y);
+        for (int x = 0; x < levels->width_px; x++, level += 3, own += 3, now += 3) {
+            bool changed = byte_of(level[0]) != own[0] || byte_of(level[1]) != own[1] || byte_of(level[2]) != own[2];
+            for (int c3 = 0; changed && c3 < 3; c3++) level[c3] = now[c3];
+        }
+    }
+    image_release(&filed);
+    return ok;
+}
+
+static bool add_grain(struct image *levels, const struct hand *h, const struct manifest *m, const struct image *object,
+                      const struct image *visible, struct error *err)
+{
+    struct image cover;
+    if (!image_init(&cover, levels->width_px, levels->height_px, 1, PIXEL_F32, err)) return false;
+    size_t n = (size_t)cover.width_px * (size_t)cover.height_px;
+    for (size_t i = 0; i < n; i++) ((float *)cover.data)[i] = ((const float *)object->data)[4 * i + 3] * transfer_share(visible, i);
+    struct draw_key key = { .seed = (uint64_t)m->seed, .frame = strtoll(m->frame, NULL, 10) };
+    bool ok = grain_add(levels, &cover, &h->grain, key, m->view.window_px, m->width_px, err);
+    image_release(&cover);
+    return ok;
+}
+
+bool hand_develop(struct image *rgb, const struct hand *hand, const struct manifest *m, const struct image *before,
+                  const struct image *after, const struct image *object, const struct image *visible, struct error *err)
+{
+    struct image levels;
+    struct rect w = m->view.window_px;
+    if (!levels_take(&levels, rgb, before, after, w, err)) return false;
+    bool ok = (!hand->compression.found || compress(&levels, rgb, &hand->compression, w, err)) &&
+              (!hand->has_grain || add_grain(&levels, hand, m, object, visible, err));
+    if (ok) put_changes(rgb, &levels, rgb, w);
+    image_release(&levels);
+    return ok;
+}

@@ -1,0 +1,138 @@
+#include "post/grain.h"
+
+#include "tests/post/taken.h"
+#include "tests/tap.h"
+
+#include <string.h>
+
+#define W 640
+#define H 480
+#define TONES 5
+static const int tones[TONES] = { 40, 88, 136, 184, 216 };
+/* Of the red and green, and of the blue, which is noisier, at each tone: in levels. */
+static const double green[TONES] = { 3.0, 2.6, 2.2, 1.9, 1.7 }, blue = 1.4;
+/* A camera without much detail: each pixel's noise is the mean of it and its neighbours'. */
+static const double smooth[3] = { 0.25, 0.5, 0.25 };
+
+static double field[3][H + 2][W + 2];
+
+/* Noise of variance 1 whose neighbours to the right and below share (2 * 0.25 * 0.5) / 0.375 = 2/3 of it. */
+static double smooth_noise(int c, int x, int y)
+{
+    double sum = 0;
+    for (int dy = 0; dy < 3; dy++)
+        for (int dx = 0; dx < 3; dx++) sum += smooth[dy] * smooth[dx] * field[c][y + dy][x + dx];
+    return sum / 0.375;
+}
+
+/* Stripes of tones, each with a slight ramp, and a third of the picture of strong texture. */
+static struct image photograph(void)
+{
+    struct image rgb = grey(W, H, 0);
+    for (int c = 0; c < 3; c++)
+        for (int y = 0; y < H + 2; y++)
+            for (int x = 0; x < W + 2; x++) field[c][y][x] = noise();
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++) {
+            int t = y * TONES / H;
+            double level = tones[t] + 0.01 * (x - W / 2), texture = x > 2 * W / 3 ? 30 * sin(0.9 * x) * cos(0.7 * y) : 0;
+            for (int c = 0; c < 3; c++)
+                image_u8(&rgb, x, y)[c] = byte(level + texture + green[t] * (c == 2 ? blue : 1) * smooth_noise(c, x, y));
+        }
+    return rgb;
+}
+
+static double sigma_of(const struct image *levels, double mean, int c)
+{
+    double sum = 0;
+    int n = levels->width_px * levels->height_px;
+    for (int i = 0; i < n; i++) {
+        double v = (double)((const float *)levels->data)[3 * i + c] - mean;
+        sum += v * v / n;
+    }
+    return sqrt(sum);
+}
+
+static double alike(const struct image *levels, double mean, int dx, int dy)
+{
+    double sum = 0, square = 0;
+    for (int y = 0; y + dy < levels->height_px; y++)
+        for (int x = 0; x + dx < levels->width_px; x++) {
+            double v = (double)image_f32(levels, x, y)[1] - mean;
+            sum += v * ((double)image_f32(levels, x + dx, y + dy)[1] - mean);
+            square += v * v;
+        }
+    return sum / square;
+}
+
+static struct image flat(int width, int height, int channels, float value)
+{
+    struct image image;
+    struct error err = ERROR_NONE;
+    if (!image_init(&image, width, height, channels, PIXEL_F32, &err)) exit(99);
+    for (size_t i = 0; i < image_size(&image) / sizeof value; i++) ((float *)image.data)[i] = value;
+    return image;
+}
+
+static void check_added(const struct grain *g)
+{
+    struct error err = ERROR_NONE;
+    struct draw_key key = { .seed = 7, .frame = 3 };
+    struct image cover = flat(200, 200, 1, 1), half = flat(200, 200, 1, 0.5f);
+    for (int t = 0; t < TONES; t++) {
+        struct image levels = flat(200, 200, 3, (float)tones[t]);
+        OK(grain_add(&levels, &cover, g, key, (struct rect){ 10, 20, 210, 220 }, W, &err), "grain is added at level %d", tones[t]);
+        NEAR(sigma_of(&levels, tones[t], 1) / green[t], 1, 0.15, "as much as the photograph has, in green");
+        NEAR(sigma_of(&levels, tones[t], 2) / (blue * green[t]), 1, 0.15, "and in blue");
+        NEAR(alike(&levels, tones[t], 1, 0), 2.0 / 3, 0.15 * 2 / 3, "and as alike to the right");
+        NEAR(alike(&levels, tones[t], 0, 1), 2.0 / 3, 0.15 * 2 / 3, "below");
+        NEAR(alike(&levels, tones[t], 0, 2), 1.0 / 6, 0.06, "and two pixels below");
+        image_release(&levels);
+    }
+    struct image a = flat(200, 200, 3, 100), b = flat(60, 50, 3, 100), c = flat(60, 50, 3, 100);
+    grain_add(&a, &cover, g, key, (struct rect){ 10, 20, 210, 220 }, W, &err);
+    grain_add(&b, &cover, g, key, (struct rect){ 40, 30, 100, 80 }, W, &err);
+    bool same = true;
+    for (int y = 0; y < 50; y++) same = same && !memcmp(image_f32(&a, 30, 10 + y), image_f32(&b, 0, y), 60 * 3 * sizeof(float));
+    OK(same, "a pixel's grain does not depend on the window");
+    key.frame = 4;
+    grain_add(&c, &cover, g, key, (struct rect){ 40, 30, 100, 80 }, W, &err);
+    OK(memcmp(b.data, c.data, image_size(&b)) != 0, "another frame has other grain");
+    for (size_t i = 0; i < image_size(&a) / sizeof(float); i++) ((float *)a.data)[i] = 100;
+    grain_add(&a, &half, g, key, (struct rect){ 10, 20, 210, 220 }, W, &err);
+    NEAR(sigma_of(&a, 100, 1) / grain_sigma(g, 100, 1), sqrt(0.75), 0.03, "what covers half lets the photograph's half through");
+    image_release(&a);
+    image_release(&b);
+    image_release(&c);
+    image_release(&cover);
+    image_release(&half);
+}
+
+int main(void)
+{
+    struct error err = ERROR_NONE;
+    struct flat_patches patches;
+    struct grain g;
+    srand(5);
+    struct image rgb = photograph();
+    if (!OK(flat_patches_find(&patches, &rgb, &err) && grain_measure(&g, &rgb, &patches, &err), "grain is measured")) return tap_done();
+    OK(g.patches > 100, "on many patches: %zu", g.patches);
+    for (int t = 0; t < TONES; t++) {
+        NEAR(grain_sigma(&g, tones[t], 1) / green[t], 1, 0.15, "green noise at level %d", tones[t]);
+        NEAR(grain_sigma(&g, tones[t], 2) / (blue * green[t]), 1, 0.15, "and blue");
+    }
+    NEAR(g.correlation[0][3][4], 2.0 / 3, 0.15 * 2 / 3, "neighbours are as alike as they are");
+    check_added(&g);
+    flat_patches_release(&patches);
+    image_release(&rgb);
+
+    rgb = grey(W, H, 120);
+    OK(flat_patches_find(&patches, &rgb, &err) && grain_measure(&g, &rgb, &patches, &err), "a picture without noise");
+    NEAR(grain_sigma(&g, 120, 0), 0, 1e-6, "has none");
+    flat_patches_release(&patches);
+    image_release(&rgb);
+
+    g = grain_white(2.5);
+    NEAR(grain_sigma(&g, 77, 2), 2.5, 1e-9, "noise that is given is the same everywhere");
+    return tap_done();
+}
