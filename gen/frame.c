@@ -22,6 +22,7 @@ static void frame_release(struct frame *f)
     free(f->occluders);
     free(f->matters);
     image_release(&f->motion);
+    image_release(&f->picture);
     frame_labels_release(&f->labels);
     moment_release(&f->moment);
 }
@@ -215,13 +216,15 @@ static bool trace(struct frame *f, struct error *err)
 }
 
 /* The picture of a new view: the static mesh in its own colours. */
-static bool write_background(const struct frame *f, struct error *err)
+static bool write_background(struct frame *f, struct error *err)
 {
     struct place_view view = { 0 };
     char *path = string_format("%s/background.png", f->folder);
     bool ok = (path || error_set(err, ERR_MEMORY, "no memory for a path")) &&
               place_render(&view, f->stage->mesh, f->camera, f->shot->world_from_camera, err) &&
               image_write(path, &view.rgb, err);
+    f->picture = view.rgb;
+    view.rgb = (struct image){ 0 };
     place_view_release(&view);
     free(path);
     return ok;
@@ -241,7 +244,7 @@ bool frame_make(struct frame_result *result, const struct frame_context *context
         result->receiver_reduction = pass_settings(s->quality, context->light).receiver_reduction;
         if (!result->empty)
             ok = (view_cover(&result->view, camera, window, err) || stage_fail(s, shot->source, err)) &&
-                 frame_write_passes(&f, &result->view, err);
+                 frame_expose(&f, err) && frame_write_passes(&f, &result->view, err);
     }
     ok = ok && frame_write_manifest(&f, result, err);
     frame_release(&f);

@@ -3,6 +3,7 @@
 #define STAFFAGE_GEN_FRAME_IMPL_H
 
 #include "gen/frame.h"
+#include "gen/light/exposure.h"
 #include "gen/moment.h"
 #include "gen/world/receiver.h"
 #include "gen/world/surroundings.h"
@@ -21,12 +22,19 @@ struct frame {
     struct frame_labels labels;
     bool *matters;                  /* (moment.n) seen, or shading what is seen */
     struct image motion;            /* empty: nothing blurs by moving */
+    struct image picture;           /* U8, 3 channels: the photograph, or a new view's background; empty until it is read */
+    struct exposure exposure;       /* of the picture; of an empty frame none */
 };
 
 /* A pixel position of the scene file, at the size of the result. */
 struct vec2 frame_scaled_px(const struct frame *f, struct vec2 q);
 /* What ground a pixel position of the result shows. */
 bool frame_ground_at(struct vec3 *p_m, const struct frame *f, struct vec2 q_px);
+
+/* The picture as post merges into it: frame_exposure.c */
+bool frame_read_picture(struct frame *f, struct error *err);
+/* The exposure, given or fitted to the picture, at the scene's line when it cannot be. */
+bool frame_expose(struct frame *f, struct error *err);
 
 /* The manifest, the last file of a frame: frame_manifest.c */
 bool frame_write_manifest(const struct frame *f, const struct frame_result *result, struct error *err);

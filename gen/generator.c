@@ -168,11 +168,6 @@ static char *photograph_path(const struct generator *g, size_t frame, struct err
     return path;
 }
 
-static char *opened_path(const struct generator *g, const char *path)
-{
-    return path[0] == '/' ? strdup(path) : string_format("%s/%s", g->out_folder, path);
-}
-
 bool generator_prepare(struct generator *g, const size_t *frames, size_t n, struct error *err)
 {
     if (!g->scene->video) return true;
@@ -181,7 +176,7 @@ bool generator_prepare(struct generator *g, const size_t *frames, size_t n, stru
     size_t missing = 0;
     bool ok = numbers && paths;
     for (size_t i = 0; ok && i < n; i++) {
-        char *named = photograph_path(g, frames[i], err), *path = named ? opened_path(g, named) : NULL;
+        char *named = photograph_path(g, frames[i], err), *path = named ? path_from_folder(g->out_folder, named) : NULL;
         char *folder = path ? path_folder(path) : NULL;
         ok = folder && folder_make(folder, err);
         if (ok && !file_exists(path)) {
@@ -228,7 +223,7 @@ static bool frame_key(char key[17], const struct generator *g, const struct scen
                       struct error *err)
 {
     uint64_t hash = hash_bytes(g->input_hash, &shot->number, sizeof shot->number);
-    char *path = opened_path(g, photograph);
+    char *path = path_from_folder(g->out_folder, photograph);
     bool ok = path ? !photograph[0] || hash_file_state(&hash, path, photograph, err)
                    : error_set(err, ERR_MEMORY, "no memory for a path");
     ok = ok && (!shot->semantic || hash_file_state(&hash, shot->semantic, shot->semantic, err)) &&

@@ -4,10 +4,12 @@ gen_libgen_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(TINYGLTF_CFLAGS) $(ASS
   $(ERFA_CFLAGS) $(YAML_CFLAGS) $(JANSSON_CFLAGS) $(READOSM_CFLAGS)
 gen_libgen_a_SOURCES = \
   %D%/frame.c %D%/frame.h %D%/frame_impl.h \
+  %D%/frame_exposure.c \
   %D%/frame_manifest.c \
   %D%/frame_passes.c \
   %D%/generator.c %D%/generator.h \
   %D%/light/daylight.c %D%/light/daylight.h \
+  %D%/light/exposure.c %D%/light/exposure.h \
   %D%/light/light.c %D%/light/light.h \
   %D%/light/measured_sky.c %D%/light/measured_sky.h \
   %D%/light/sky_form.c %D%/light/sky_form.h \

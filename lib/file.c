@@ -35,6 +35,11 @@ char *path_beside(const char *base_file, const char *path)
     return string_format("%.*s/%s", (int)(slash - base_file), base_file, path);
 }
 
+char *path_from_folder(const char *folder, const char *path)
+{
+    return path[0] == '/' ? strdup(path) : string_format("%s/%s", folder, path);
+}
+
 const char *path_name(const char *path)
 {
     const char *slash = strrchr(path, '/');

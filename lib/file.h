@@ -15,6 +15,8 @@ char *string_format(const char *format, ...);
 /* `path` as seen from the folder that holds `base_file`: an absolute path stays
  * as it is. The caller frees. */
 char *path_beside(const char *base_file, const char *path);
+/* The same as seen from a folder. */
+char *path_from_folder(const char *folder, const char *path);
 /* The folder of a path ("." when it has none). The caller frees. */
 char *path_folder(const char *path);
 /* The part after the last '/': points into path. */

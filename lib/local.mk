@@ -2,6 +2,7 @@
 noinst_LIBRARIES += lib/libstaffage.a
 lib_libstaffage_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(GEOGRAPHIC_CFLAGS) $(JANSSON_CFLAGS)
 lib_libstaffage_a_SOURCES = \
+  %D%/air.c %D%/air.h \
   %D%/class.c %D%/class.h \
   %D%/draw.c %D%/draw.h \
   %D%/error.c %D%/error.h \
@@ -9,6 +10,7 @@ lib_libstaffage_a_SOURCES = \
   %D%/image.c %D%/image.h %D%/image_io.cpp \
   %D%/json_walk.c %D%/json_walk.h \
   %D%/opencv.h \
+  %D%/photograph.c %D%/photograph.h \
   %D%/place.cpp %D%/place.h \
   %D%/rect.h \
   %D%/rle.c %D%/rle.h \

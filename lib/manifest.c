@@ -114,39 +114,19 @@ static bool one_of(struct walk *walk, const char *key, const char *value, const 
     return walk_wrong(walk, key, "has no value %s", value);
 }
 
-/* Where the exposure comes from: given, or fitted to samples, or, when there are none, to a patch. */
-static bool walk_samples(struct walk *walk, struct manifest *m)
-{
-    json_t *array = walk->reading ? walk_take(walk, "exposure_sample_px") : json_array();
-    if (walk->reading) {
-        if (!array) return false;
-        if (!json_is_array(array)) return walk_wrong(walk, "exposure_sample_px", "must be a list");
-        m->exposure_samples = json_array_size(array);
-        m->exposure_sample_px = calloc(m->exposure_samples + 1, sizeof *m->exposure_sample_px);
-        if (!m->exposure_sample_px) return error_set(walk->err, ERR_MEMORY, "out of memory");
-    } else if (!walk_put(walk, "exposure_sample_px", array)) {
-        return false;
-    }
-    for (size_t i = 0; i < m->exposure_samples; i++) {
-        struct vec2 *q = &m->exposure_sample_px[i];
-        if (walk->reading) {
-            json_t *pair = json_array_get(array, i), *x = json_array_get(pair, 0), *y = json_array_get(pair, 1);
-            if (json_array_size(pair) != 2 || !json_is_number(x) || !json_is_number(y))
-                return walk_wrong(walk, "exposure_sample_px", "must hold pairs of numbers");
-            *q = (struct vec2){ json_number_value(x), json_number_value(y) };
-        } else if (json_array_append_new(array, json_pack("[f,f]", q->x, q->y)) != 0) {
-            return walk_wrong(walk, "exposure_sample_px", "must hold finite numbers");
-        }
-    }
-    return true;
-}
-
 static bool walk_exposure(struct walk *walk, struct manifest *m)
 {
-    if (!walk_bool(walk, "exposure_given", &m->exposure_given)) return false;
-    if (m->exposure_given) return walk_real(walk, "exposure", &m->exposure, 1e-300, 1e300);
-    return walk_samples(walk, m) &&
-           (m->exposure_samples > 0 || walk_rect(walk, "exposure_patch_px", &m->exposure_patch_px));
+    if (!walk_reals(walk, "exposure", m->exposure, 3)) return false;
+    for (int c = 0; c < 3; c++)
+        if (!(m->exposure[c] > 0)) return walk_wrong(walk, "exposure", "must be above 0");
+    double at[2] = { m->exposure_at_px.x, m->exposure_at_px.y };
+    if (!walk_reals(walk, "exposure_at_px", at, 2)) return false;
+    m->exposure_at_px = (struct vec2){ at[0], at[1] };
+    if (!walk_bool(walk, "exposure_fitted", &m->exposure_fitted)) return false;
+    if (!m->exposure_fitted) return true;
+    return walk_int(walk, "exposure_samples", &m->exposure_samples, 0, INT_MAX) &&
+           (m->exposure_samples > 0 || walk_rect(walk, "exposure_patch_px", &m->exposure_patch_px)) &&
+           walk_reals(walk, "exposure_median", m->exposure_median, 3);
 }
 
 /* What the photograph has of its own, and what the frame's folder has of the place. */
@@ -172,8 +152,8 @@ static bool walk_place(struct walk *walk, struct manifest *m)
 static bool walk_weather(struct walk *walk, struct manifest *m)
 {
     if (!walk_bool(walk, "has_mist", &m->has_mist)) return false;
-    if (m->has_mist && (!walk_real(walk, "visibility_m", &m->visibility_m, 1e-300, 1e300) || !walk_reals(walk, "haze", m->haze, 3) ||
-                        !walk_real(walk, "exposure_distance_m", &m->exposure_distance_m, 0, 1e300)))
+    if (m->has_mist && (!walk_real(walk, "visibility_m", &m->visibility_m, 1e-300, 1e300) ||
+                        !walk_reals(walk, "haze", m->haze, 3)))
         return false;
     if (!walk_bool(walk, "has_motion", &m->has_motion) || !walk_real(walk, "defocus_px", &m->defocus_px, 0, 1000) ||
         !walk_real(walk, "focus_m", &m->focus_m, 0, 1e300))
@@ -217,9 +197,8 @@ static bool walk_manifest(struct walk *walk, struct manifest *m)
     if (!m->empty && (!walk_view(walk, &m->view) || !walk_int(walk, "receiver_reduction", &m->receiver_reduction, 1, 16) ||
                       !walk_exposure(walk, m)))
         return false;
-    return walk_bool(walk, "white_balance", &m->white_balance) &&
-           walk_reals(walk, "ground_radiance", m->ground_radiance, 3) && walk_transfer(walk, m) && walk_place(walk, m) &&
-           walk_weather(walk, m) && walk_hand(walk, m) && walk_entities(walk, m) && walk_leave(walk);
+    return walk_transfer(walk, m) && walk_place(walk, m) && walk_weather(walk, m) && walk_hand(walk, m) &&
+           walk_entities(walk, m) && walk_leave(walk);
 }
 
 static bool walk_version(struct walk *walk)
@@ -289,7 +268,4 @@ void manifest_release(struct manifest *manifest)
     free(manifest->entities);
     manifest->entities = NULL;
     manifest->entity_count = 0;
-    free(manifest->exposure_sample_px);
-    manifest->exposure_sample_px = NULL;
-    manifest->exposure_samples = 0;
 }

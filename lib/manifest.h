@@ -12,7 +12,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define MANIFEST_VERSION 3
+#define MANIFEST_VERSION 4
 #define MANIFEST_SOFTNESS_AUTO_MAX_PX 2.5 /* so far does the window leave room for a softness that is measured */
 
 struct manifest_entity { uint16_t id; char name[128]; enum entity_class class_; };
@@ -29,11 +29,12 @@ struct manifest {
     struct view view;           /* of the object pass, absent in an empty frame; the plane and shadow
                                  * passes are rendered in view_reduced(&view, receiver_reduction) */
     int receiver_reduction;     /* 1 to 16 */
-    bool exposure_given;
-    double exposure;            /* used when given */
-    struct rect exposure_patch_px; /* else fitted here */
-    bool white_balance;
-    double ground_radiance[3];  /* of unshadowed ground in the passes' units */
+    double exposure[3];         /* linear photograph value per unit of radiance */
+    struct vec2 exposure_at_px; /* where in the picture it was found: there it is right, whatever the lens takes away */
+    bool exposure_fitted;       /* to the picture, else given */
+    int exposure_samples;       /* fitted to so many pixels of roads, */
+    struct rect exposure_patch_px; /* or, where these are 0, to this patch */
+    double exposure_median[3];  /* of what it was fitted to, linear */
     char transfer[16];          /* layers, ratio, threshold, alpha */
     double t1, t2, t3;          /* 0..255 */
     bool overwrite_below;
@@ -44,12 +45,9 @@ struct manifest {
     enum palette palette;       /* of semantic/ and semantic_id/ */
     char semantic[1024];        /* the photograph's own semantic image (colours or ids), "" for none */
     char depth[1024];           /* the photograph's own depth image, "" for none */
-    struct vec2 *exposure_sample_px; /* (exposure_samples) pixels of sunlit ground: the exposure is fitted */
-    size_t exposure_samples;         /* to their median rather than to the patch; 0: the patch */
     bool has_mist;              /* entities and their shadows fade with distance */
     double visibility_m;        /* meteorological: contrast falls to 5 % (WMO) */
     double haze[3];             /* colour of the air far away, linear values of the photograph */
-    double exposure_distance_m; /* with mist: from the camera to the ground that the exposure is fitted to */
     bool has_motion;            /* motion.exr is there: F32, 3 channels: pixels right and down that what is seen
                                  * (an entity, or the shade of one) moves while the shutter is open; and 0 */
     double defocus_px;          /* diameter of the blur at infinite distance, in px, 0: none */

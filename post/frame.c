@@ -2,11 +2,9 @@
 
 #include "lib/file.h"
 #include "post/depth.h"
-#include "post/exposure.h"
 #include "post/frame_input.h"
 #include "post/hand.h"
 #include "post/mask.h"
-#include "post/mist.h"
 #include "post/optics.h"
 #include "post/output.h"
 #include "post/semantic.h"
@@ -41,27 +39,6 @@ static bool find_classes(struct image *classes, const struct frame_input *f, str
     return false;
 }
 
-static bool find_exposure(struct exposure *exposure, const struct frame_input *f, struct error *err)
-{
-    const struct manifest *m = &f->manifest;
-    bool fits = true;
-    if (m->exposure_given)
-        *exposure = exposure_given(m->exposure);
-    else if (m->exposure_samples > 0)
-        fits = exposure_fit_samples(exposure, &f->rgb, m->exposure_sample_px, m->exposure_samples, m->ground_radiance,
-                                    m->white_balance, err);
-    else
-        fits = exposure_fit(exposure, &f->rgb, m->exposure_patch_px, m->ground_radiance, m->white_balance, err);
-    if (fits && exposure->fitted && m->has_mist)
-        fits = exposure_clear(exposure, mist_transmission(m->visibility_m, m->exposure_distance_m), m->haze, m->ground_radiance,
-                              m->white_balance, err);
-    if (!fits) return blame(err, f->photograph);
-    char *path = path_in_folder(f, "exposure.json", err);
-    bool ok = path && exposure_write(path, exposure, err);
-    free(path);
-    return ok;
-}
-
 static bool transfer(struct image *out, const struct frame_input *f, const struct image *classes,
                      const struct transfer_input *in, struct error *err)
 {
@@ -79,7 +56,7 @@ static bool transfer(struct image *out, const struct frame_input *f, const struc
 }
 
 /* What air and lens do to the layers. */
-static bool through_optics(struct frame_input *f, const struct image *linear, const struct exposure *exposure, struct error *err)
+static bool through_optics(struct frame_input *f, const struct image *linear, struct error *err)
 {
     const struct manifest *m = &f->manifest;
     struct image depth;
@@ -88,7 +65,7 @@ static bool through_optics(struct frame_input *f, const struct image *linear, co
     struct optics_input in = {
         .manifest = m, .photograph = linear, .depth = &depth, .ground = &f->ground, .motion = &f->motion,
         .visible = m->has_shares ? &f->visible : NULL, .receiver = m->has_shares ? &f->receiver : NULL,
-        .exposure = { exposure->k[0], exposure->k[1], exposure->k[2] },
+        .exposure = { m->exposure[0], m->exposure[1], m->exposure[2] },
     };
     bool ok = optics_apply(&f->layers[OBJECT], &f->layers[PLANE], &f->layers[SHADOW], &in, err);
     image_release(&depth);
@@ -105,28 +82,15 @@ static bool find_hand(struct hand *hand, struct frame_input *f, struct error *er
     return ok;
 }
 
-/* Where in the photograph the exposure was found: there it is right, whatever the lens takes away. */
-static struct vec2 fitted_px(const struct manifest *m, const struct exposure *e)
-{
-    if (e->fitted && e->samples == 0)
-        return (struct vec2){ (e->patch_px.x0 + e->patch_px.x1) / 2.0, (e->patch_px.y0 + e->patch_px.y1) / 2.0 };
-    struct vec2 mean = { m->width_px / 2.0, m->height_px / 2.0 };
-    for (size_t i = 0; e->fitted && i < m->exposure_samples; i++) {
-        double n = (double)i + 1;
-        mean = (struct vec2){ mean.x + (m->exposure_sample_px[i].x - mean.x) / n, mean.y + (m->exposure_sample_px[i].y - mean.y) / n };
-    }
-    return mean;
-}
-
 /* The lens darkens before it blurs; the sensor's highlights come after. */
-static bool through_lens(struct frame_input *f, const struct hand *hand, const struct image *linear, const struct exposure *exposure,
-                         struct error *err)
+static bool through_lens(struct frame_input *f, const struct hand *hand, const struct image *linear, struct error *err)
 {
     const struct manifest *m = &f->manifest;
     struct image *object = &f->layers[OBJECT];
-    if (hand->fall_off > 0) vignette_shade(object, hand->fall_off, fitted_px(m, exposure), m->view.window_px, m->width_px, m->height_px);
-    if (!through_optics(f, linear, exposure, err)) return false;
-    if (hand->knee < 1) highlights_keep(object, hand->knee, exposure->k);
+    if (hand->fall_off > 0)
+        vignette_shade(object, hand->fall_off, m->exposure_at_px, m->view.window_px, m->width_px, m->height_px);
+    if (!through_optics(f, linear, err)) return false;
+    if (hand->knee < 1) highlights_keep(object, hand->knee, m->exposure);
     return true;
 }
 
@@ -135,16 +99,15 @@ static bool merge(struct frame_input *f, const struct image *classes, struct err
 {
     const struct manifest *m = &f->manifest;
     struct image cut = { 0 }, linear = { 0 }, merged = { 0 };
-    struct exposure exposure;
     struct hand hand;
     const struct image *visible = m->has_shares ? &f->visible : NULL;
-    bool ok = find_exposure(&exposure, f, err) && find_hand(&hand, f, err) && window_cut(&cut, &f->rgb, m->view.window_px, err) &&
-              image_linear_from_srgb(&linear, &cut, err) && through_lens(f, &hand, &linear, &exposure, err);
+    bool ok = find_hand(&hand, f, err) && window_cut(&cut, &f->rgb, m->view.window_px, err) &&
+              image_linear_from_srgb(&linear, &cut, err) && through_lens(f, &hand, &linear, err);
     if (ok) {
         struct transfer_input in = {
             .photograph = &linear, .object = &f->layers[OBJECT], .plane = &f->layers[PLANE], .shadow = &f->layers[SHADOW],
             .visible = visible, .receiver = m->has_shares ? &f->receiver : NULL,
-            .exposure = { exposure.k[0], exposure.k[1], exposure.k[2] },
+            .exposure = { m->exposure[0], m->exposure[1], m->exposure[2] },
         };
         ok = transfer(&merged, f, classes, &in, err);
     }

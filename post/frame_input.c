@@ -1,6 +1,7 @@
 #include "post/frame_input.h"
 
 #include "lib/file.h"
+#include "lib/photograph.h"
 #include "post/before.h"
 #include "post/input.h"
 #include "post/mist.h"
@@ -73,8 +74,9 @@ static bool read_layer_window(struct image *image, const struct frame_input *f, 
 static bool read_photograph(struct frame_input *f, struct error *err)
 {
     const struct manifest *m = &f->manifest;
-    f->photograph = m->new_view ? path_in(f->folder, "background.png", err) : input_path(f->out, m->photograph, err);
-    return f->photograph && input_photograph(&f->rgb, f->photograph, m->width_px, m->height_px, err);
+    f->photograph = m->new_view ? path_in(f->folder, "background.png", err) : path_from_folder(f->out, m->photograph);
+    return (f->photograph || error_set(err, ERR_MEMORY, "no memory for a path")) &&
+           photograph_read(&f->rgb, f->photograph, m->width_px, m->height_px, err);
 }
 
 static bool read_passes(struct frame_input *f, struct error *err)

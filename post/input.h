@@ -12,9 +12,6 @@
 bool input_image(struct image *image, const char *path, int width_px, int height_px, int channels,
                  enum pixel_type type, struct error *err);
 
-/* A path as manifests name it: absolute, or from the output folder. The caller frees; NULL when memory ends. */
-char *input_path(const char *out, const char *path, struct error *err);
-
 /* An image as it is stored, whose values cannot be mixed. One of another size, but in proportion, is
  * brought to the wanted one by taking the pixel under each pixel's centre.
  * Err: ERR_INPUT at `path`: missing, truncated, or of another aspect ratio */
@@ -24,10 +21,5 @@ bool input_nearest(struct image *image, const char *path, int width_px, int heig
  * overflowed the file's half floats becomes their largest value.
  * Err: as input_image; ERR_RENDER at `path` for a pixel that is not a number */
 bool input_pass(struct image *pass, const char *path, int width_px, int height_px, struct error *err);
-
-/* The photograph as sRGB, 8 bits, 3 channels, at the size of the result. One that has these
- * already keeps every bit; any other is converted, and scaled, in linear light.
- * Err: ERR_INPUT at `path`: missing, truncated, float, or of another aspect ratio */
-bool input_photograph(struct image *rgb, const char *path, int width_px, int height_px, struct error *err);
 
 #endif

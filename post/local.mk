@@ -7,7 +7,6 @@ post_libpost_a_SOURCES = \
   %D%/defocus.c %D%/defocus.h \
   %D%/depth.c %D%/depth.h \
   %D%/edge.c %D%/edge.h \
-  %D%/exposure.c %D%/exposure.h \
   %D%/flat.c %D%/flat.h \
   %D%/frame.c %D%/frame.h \
   %D%/frame_input.c %D%/frame_input.h \

@@ -1,14 +1,10 @@
 #include "post/mist.h"
 
+#include "lib/air.h"
 #include "post/layer.h"
 #include "post/spread.h"
 
 #include <math.h>
-
-double mist_transmission(double visibility_m, double distance_m)
-{
-    return distance_m > 0 ? exp(log(0.05) * distance_m / visibility_m) : 1;
-}
 
 /* Premultiplied colour behind air that lets t through; the haze in units of the layer. */
 static void fade(float *rgba, const struct mist *mist, double t)
@@ -38,8 +34,8 @@ bool mist_fade(struct image *object, struct image *plane, struct image *light, c
             float *o = image_f32(object, x, y), *l = image_f32(light, x, y);
             if (!(o[3] > 0) && l[0] == 0 && l[1] == 0 && l[2] == 0) continue;
             double stretch = metres_per_depth(camera, w.x0 + x, w.y0 + y);
-            fade(o, mist, mist_transmission(mist->visibility_m, stretch * (double)*image_f32(&entity_z, x, y)));
-            double t = mist_transmission(mist->visibility_m, stretch * (double)*image_f32(&ground_z, x, y));
+            fade(o, mist, air_transmission(mist->visibility_m, stretch * (double)*image_f32(&entity_z, x, y)));
+            double t = air_transmission(mist->visibility_m, stretch * (double)*image_f32(&ground_z, x, y));
             fade(image_f32(plane, x, y), mist, t);
             const float *b = image_f32(photograph, x, y);
             for (int c = 0; c < 3; c++) {
@@ -58,7 +54,7 @@ void mist_veil(struct image *rgb, const struct image *ground, double visibility_
     for (int y = 0; y < rgb->height_px; y++)
         for (int x = 0; x < rgb->width_px; x++) {
             double distance = metres_per_depth(camera, x, y) * (double)*image_f32(ground, x, y);
-            double t = isfinite(distance) ? mist_transmission(visibility_m, distance) : 0;
+            double t = isfinite(distance) ? air_transmission(visibility_m, distance) : 0;
             uint8_t *px = image_u8(rgb, x, y);
             for (int c = 0; c < 3; c++) {
                 double own = (double)linear_from_srgb((float)px[c] / 255);

@@ -15,10 +15,6 @@ struct mist {
     double exposure[3];    /* k: of the photograph */
 };
 
-/* What remains of contrast over a distance, T = 0.05 ^ (distance / visibility); 1 for one not known.
- * Src: Koschmieder's law; WMO Guide to Instruments and Methods of Observation, chapter 9 */
-double mist_transmission(double visibility_m, double distance_m);
-
 /* Fade entities into the air, k O -> k O T + A (1 - T) alpha; and their light on the ground, of which the
  * photograph's air has none: the pixel B = J T + A (1 - T) with J r for J is B r + A (1 - T)(1 - r), so
  * light -> light d, where d = 1 - A (1 - T) / B, from 0 up, is the ground's own part of the pixel.

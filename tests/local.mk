@@ -11,6 +11,16 @@ tests_lib_class_test_SOURCES = %D%/lib/class.c %D%/tap.h
 nodist_EXTRA_tests_lib_class_test_SOURCES = dummy.cxx
 tests_lib_class_test_LDADD = $(LIB_LIBS)
 
+check_PROGRAMS += tests/lib/air.test
+tests_lib_air_test_SOURCES = %D%/lib/air.c %D%/tap.h
+nodist_EXTRA_tests_lib_air_test_SOURCES = dummy.cxx
+tests_lib_air_test_LDADD = $(LIB_LIBS)
+
+check_PROGRAMS += tests/lib/photograph.test
+tests_lib_photograph_test_SOURCES = %D%/lib/photograph.c %D%/tap.h
+nodist_EXTRA_tests_lib_photograph_test_SOURCES = dummy.cxx
+tests_lib_photograph_test_LDADD = $(LIB_LIBS)
+
 check_PROGRAMS += tests/lib/vec.test
 tests_lib_vec_test_SOURCES = %D%/lib/vec.c %D%/tap.h
 nodist_EXTRA_tests_lib_vec_test_SOURCES = dummy.cxx
@@ -81,6 +91,11 @@ check_PROGRAMS += tests/gen/sunlit.test
 tests_gen_sunlit_test_SOURCES = %D%/gen/sunlit.c %D%/gen/place.h %D%/tap.h
 nodist_EXTRA_tests_gen_sunlit_test_SOURCES = dummy.cxx
 tests_gen_sunlit_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/exposure.test
+tests_gen_exposure_test_SOURCES = %D%/gen/exposure.c %D%/tap.h
+nodist_EXTRA_tests_gen_exposure_test_SOURCES = dummy.cxx
+tests_gen_exposure_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/surface.test
 tests_gen_surface_test_SOURCES = %D%/gen/surface.c %D%/tap.h

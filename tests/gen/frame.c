@@ -155,6 +155,53 @@ static void test_exposure_without_roads(void)
     free(head);
 }
 
+/* A frame's manifest; the caller releases it. */
+static bool manifest_there(struct manifest *m)
+{
+    struct error err = ERROR_NONE;
+    char *path = of_frame("frame.json");
+    bool ok = OK(manifest_read(m, path, &err), "the frame's manifest: %s", err.text);
+    free(path);
+    return ok;
+}
+
+/* A grey photograph of 137, 0.25016 linear, under a ground of albedo 0.2: what light reaches it cannot be told from here. */
+static void test_exposure_is_fitted(void)
+{
+    static uint8_t grey[64 * 48 * 3];
+    struct image image = { 64, 48, 3, PIXEL_U8, grey };
+    struct error err = ERROR_NONE;
+    struct manifest one, other;
+    static const char head[] = "photographs: {files: [grey.png]}\ncamera: {model: PINHOLE, size_px: [64, 48], params: [60, 60, 32, 24], " HIGH "}";
+    static const char rest[] = "ground: {height_m: 0, albedo: %s}\nexposure: {patch_px: [4, 4, 20, 20]}\n"
+                               "entities: [{name: e, model: box, at: {world_m: [0, 0]}, heading_deg: 0}]";
+    char *path = in_scratch("grey.png"), text[512];
+    memset(grey, 137, sizeof grey);
+    bool written = image_write(path, &image, &err);
+    snprintf(text, sizeof text, rest, "0.2");
+    if (OK(written && makes(head, text), "a frame whose exposure is fitted") && manifest_there(&one)) {
+        OK(one.exposure_fitted && one.exposure_patch_px.x0 == 4 && one.exposure_patch_px.y1 == 20, "to a patch, says its manifest");
+        NEAR(one.exposure_median[1], 0.25016, 1e-4, "of this brightness");
+        snprintf(text, sizeof text, rest, "0.1");
+        if (makes(head, text) && manifest_there(&other)) {
+            for (int c = 0; c < 3; c++)
+                NEAR(other.exposure[c] / one.exposure[c], 2, 1e-9, "half as white a ground needs twice the exposure");
+            manifest_release(&other);
+        }
+        manifest_release(&one);
+    }
+    memset(grey, 180, sizeof grey); /* 0.45641 */
+    if (OK(image_write(path, &image, &err) && makes(head, text) && manifest_there(&one), "of another photograph under the same name")) {
+        NEAR(one.exposure_median[1], 0.45641, 1e-4, "the exposure is another");
+        manifest_release(&one);
+    }
+    memset(grey, 255, sizeof grey);
+    OK(image_write(path, &image, &err) && !make(head, text, &err) && err.code == ERR_INPUT && err.line == 8 && err.column == 22 &&
+           strstr(err.text, "grey.png: exposure patch 4,4 to 20,20: 100.0 % of it is saturated"),
+       "a patch that cannot be fitted to is an error at the scene's line: %s", err.text);
+    free(path);
+}
+
 int main(void)
 {
     snprintf(top, sizeof top, "%s", getenv("top_srcdir") ? getenv("top_srcdir") : ".");
@@ -174,6 +221,7 @@ int main(void)
     test_shade_that_moves();
     test_end_of_path();
     test_exposure_without_roads();
+    test_exposure_is_fitted();
     char *remove = string_format("rm -rf %s", scratch);
     if (system(remove) != 0) printf("# %s is left\n", scratch);
     free(remove);

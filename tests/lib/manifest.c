@@ -25,9 +25,11 @@ static struct manifest whole_manifest(void)
         .world_from_camera = { mat3_from_quat((struct quat){ 0.3, -0.5, 0.7, 0.2 }), { 1 / 7.0, -2e6 / 3, 0.1 + 0.2 } },
         .view = { 210, 120, 1 / 9.0, 1.1, -1e5 / 3, 7, mat3_from_quat((struct quat){ 1, 0.1, 0.2, 0 }), { -3, 5, 60, 70 }, false },
         .receiver_reduction = 2,
+        .exposure = { 0.1, 0.2, 1.0 / 3 },
+        .exposure_at_px = { 1e3 / 7, -0.1 },
+        .exposure_fitted = true,
         .exposure_patch_px = { 10, 20, 30, 40 },
-        .white_balance = true,
-        .ground_radiance = { 0.1, 0.2, 1.0 / 3 },
+        .exposure_median = { 0.7, 1e-9 / 3, 0 },
         .transfer = "threshold",
         .t1 = 30,
         .t2 = 200.5,
@@ -42,7 +44,6 @@ static struct manifest whole_manifest(void)
         .has_mist = true,
         .visibility_m = 1e4 / 3,
         .haze = { 0.7, 0.8, 0.1 + 0.2 },
-        .exposure_distance_m = 100.0 / 3,
         .has_motion = true,
         .defocus_px = 1 / 3.0,
         .focus_m = 20.5,
@@ -78,22 +79,20 @@ static bool same(const struct manifest *a, const struct manifest *b)
            a->view.cy_px == b->view.cy_px && a->receiver_reduction == b->receiver_reduction &&
            !memcmp(&a->view.view_from_camera, &b->view.view_from_camera, sizeof(struct mat3)) &&
            same_rect(a->view.window_px, b->view.window_px) && a->view.aligned == b->view.aligned &&
-           a->exposure_given == b->exposure_given && a->exposure == b->exposure &&
-           same_rect(a->exposure_patch_px, b->exposure_patch_px) && a->white_balance == b->white_balance &&
-           !memcmp(a->ground_radiance, b->ground_radiance, sizeof a->ground_radiance) &&
+           !memcmp(a->exposure, b->exposure, sizeof a->exposure) && a->exposure_fitted == b->exposure_fitted &&
+           !memcmp(&a->exposure_at_px, &b->exposure_at_px, sizeof a->exposure_at_px) &&
+           a->exposure_samples == b->exposure_samples && same_rect(a->exposure_patch_px, b->exposure_patch_px) &&
+           !memcmp(a->exposure_median, b->exposure_median, sizeof a->exposure_median) &&
            !strcmp(a->transfer, b->transfer) && a->t1 == b->t1 && a->t2 == b->t2 && a->t3 == b->t3 &&
            a->overwrite_below == b->overwrite_below && a->mask_dilated == b->mask_dilated &&
            a->has_shares == b->has_shares && a->new_view == b->new_view && a->has_place == b->has_place &&
            a->has_place_labels == b->has_place_labels && a->palette == b->palette && !strcmp(a->semantic, b->semantic) &&
-           !strcmp(a->depth, b->depth) && a->has_mist == b->has_mist && a->exposure_distance_m == b->exposure_distance_m && a->visibility_m == b->visibility_m &&
+           !strcmp(a->depth, b->depth) && a->has_mist == b->has_mist && a->visibility_m == b->visibility_m &&
            !memcmp(a->haze, b->haze, sizeof a->haze) && a->has_motion == b->has_motion &&
            a->defocus_px == b->defocus_px && a->focus_m == b->focus_m && a->softness_px == b->softness_px &&
            a->softness_auto == b->softness_auto && a->grain_auto == b->grain_auto && a->grain == b->grain &&
            a->vignetting_auto == b->vignetting_auto && a->vignetting == b->vignetting && a->highlights_auto == b->highlights_auto &&
-           a->highlights == b->highlights && a->compression_auto == b->compression_auto && a->seed == b->seed &&
-           a->exposure_samples == b->exposure_samples &&
-           (a->exposure_samples == 0 ||
-            !memcmp(a->exposure_sample_px, b->exposure_sample_px, a->exposure_samples * sizeof *a->exposure_sample_px));
+           a->highlights == b->highlights && a->compression_auto == b->compression_auto && a->seed == b->seed;
 }
 
 static void comes_back(struct manifest manifest, const char *what)
@@ -145,15 +144,12 @@ int main(void)
     struct manifest manifest = whole_manifest();
     comes_back(manifest, "a whole manifest");
     manifest.exposure_patch_px = (struct rect){ 0, 0, 0, 0 };
-    manifest.exposure_given = true;
-    manifest.exposure = 1.0 / 3;
-    comes_back(manifest, "a given exposure");
-    struct vec2 samples[] = { { 1 / 3.0, 2.5 }, { 1e3 / 7, 0.1 } };
-    manifest = whole_manifest();
-    manifest.exposure_patch_px = (struct rect){ 0, 0, 0, 0 };
-    manifest.exposure_sample_px = samples;
-    manifest.exposure_samples = 2;
+    manifest.exposure_samples = 1234;
     comes_back(manifest, "an exposure of samples");
+    manifest.exposure_fitted = false;
+    manifest.exposure_samples = 0;
+    memset(manifest.exposure_median, 0, sizeof manifest.exposure_median);
+    comes_back(manifest, "a given exposure");
     manifest = whole_manifest();
     manifest.photograph[0] = manifest.semantic[0] = manifest.depth[0] = '\0';
     manifest.new_view = true;
@@ -169,19 +165,19 @@ int main(void)
     manifest = whole_manifest();
     bool done = manifest_write(path, &manifest, &err) && file_read(&first, &size, path, &err) &&
                 manifest_write(path, &manifest, &err) && file_read(&second, &size, path, &err);
-    OK(done && !strcmp(first, second) && !strncmp(first, "{\n \"version\": 3,\n \"frame\": \"000123\"", 33),
+    OK(done && !strcmp(first, second) && !strncmp(first, "{\n \"version\": 4,\n \"frame\": \"000123\"", 33),
        "the same manifest is the same bytes, version first");
 
-    refuses("\"version\": 3", "\"version\": 4", "\"version\" is 4, this program reads 3", "another version");
-    refuses("\"version\": 3", "\"version\": 3.0", "\"version\" must be a whole number", "a version that is no number of ours");
-    refuses("\"version\": 3,", "", "\"version\" is missing", "a file without a version");
+    refuses("\"version\": 4", "\"version\": 3", "\"version\" is 3, this program reads 4", "another version");
+    refuses("\"version\": 4", "\"version\": 4.0", "\"version\" must be a whole number", "a version that is no number of ours");
+    refuses("\"version\": 4,", "", "\"version\" is missing", "a file without a version");
     refuses("\"empty\": false,", "", "\"empty\" is missing", "a missing key");
     refuses("\"params\"", "\"parms\"", "\"camera.params\" is missing", "a missing key of an object");
     refuses("\"id\": 65535,", "", "\"entities[1].id\" is missing", "a missing key of an entity");
     refuses("\"t1\"", "\"t0\": 3, \"t1\"", "\"t0\" is no key", "an unknown key");
     refuses("\"aligned\"", "\"alined\": 3, \"aligned\"", "\"view.alined\" is no key", "an unknown key of an object");
     refuses("\"t1\"", "\"t1\": 3, \"t1\"", "duplicate", "a key that is there twice");
-    refuses("\"white_balance\": true", "\"white_balance\": 1", "\"white_balance\" must be true or false", "a number for a flag");
+    refuses("\"exposure_fitted\": true", "\"exposure_fitted\": 1", "\"exposure_fitted\" must be true or false", "a number for a flag");
     refuses("\"t2\": 200.5", "\"t2\": 256", "\"t2\" must be from 0 to 255, not 256", "a threshold out of range");
     refuses("\"width_px\": 1000", "\"width_px\": 0", "\"width_px\" must be a whole number from 1", "a picture without pixels");
     refuses("\"x0\": -3", "\"x0\": 60", "\"view.window_px\" must hold pixels", "a window without pixels");
@@ -198,7 +194,8 @@ int main(void)
     refuses("\"uavid\"", "\"uavit\"", "\"palette\" names no palette: uavit", "an unknown palette");
     refuses("\"visibility_m\"", "\"visibility\"", "\"visibility_m\" is missing", "a mist of no visibility");
     refuses("\"focus_m\": 20.5", "\"focus_m\": 0", "\"focus_m\" must be more than 0 where there is a defocus", "a focus at the lens");
-    refuses("\"exposure_sample_px\": []", "\"exposure_sample_px\": [[1, 2], [3]]", "\"exposure_sample_px\" must hold pairs", "a sample of one number");
+    refuses("\"exposure_samples\": 0", "\"exposure_samples\": -1", "\"exposure_samples\" must be a whole number from 0", "less than no samples");
+    refuses("\"exposure\": [", "\"exposure\": [0, 1, 1], \"not\": [", "\"exposure\" must be above 0", "a picture without light");
     refuses("000123", "0001230001230000", "\"frame\" must be a text of 1 to 15 bytes", "a text that is too long");
 
     size_t lengths[] = { 0, 1, strlen(first) / 2, strlen(first) - 2 };
@@ -222,8 +219,8 @@ int main(void)
     OK(!manifest_read(&read, path, &err) && err.code != ERR_OK, "a file that is not there is told");
 
     manifest = whole_manifest();
-    manifest.ground_radiance[1] = NAN;
-    does_not_write(manifest, ERR_BUG, "\"ground_radiance\" must hold finite numbers", "what is no number");
+    manifest.exposure[1] = NAN;
+    does_not_write(manifest, ERR_BUG, "\"exposure\" must hold finite numbers", "what is no number");
     manifest = whole_manifest();
     manifest.world_from_camera.rotation.m[0][0] = 2;
     does_not_write(manifest, ERR_BUG, "\"world_from_camera.rotation\" must be a rotation", "a matrix that bends");

@@ -127,7 +127,7 @@ static struct manifest manifest_of(const char *frame)
         .view = { .width_px = 32, .height_px = 32, .fx_px = 50, .fy_px = 50, .cx_px = 16, .cy_px = 16,
                   .view_from_camera = mat3_identity(), .window_px = window, .aligned = true },
         .receiver_reduction = 1,
-        .exposure_given = true, .exposure = 2, .ground_radiance = { 0.1, 0.1, 0.1 },
+        .exposure = { 2, 2, 2 },
         .transfer = "layers", .t1 = 30, .t2 = 200, .t3 = 96, .has_shares = true,
         .entities = entities, .entity_count = 1,
     };
@@ -215,7 +215,6 @@ static void check_pictures(void)
     OK(has_text(in_out("labels/000001.json"), "{\"labels\": true}\n"), "labels are handed on");
     OK(has_text(in_out("amodal/000001.json"), "{\"amodal\": true}\n"), "amodal masks too");
     OK(has_text(in_out("amodal/000001/000001.bin"), "mask"), "and each entity's layer");
-    OK(file_exists(in_out("frames/000001/exposure.json")), "the exposure is written down");
     save_text("amodal/000001/000009.bin", "of an entity that is there no more");
     OK(post("000001") == 0 && !file_exists(in_out("amodal/000001/000009.bin")), "what an earlier run left is gone");
     OK(file_exists(in_out("amodal/000001/000001.bin")), "and nothing else");
@@ -271,11 +270,6 @@ static void check_faults(void)
     snprintf(m.photograph, sizeof m.photograph, "lost.png");
     save_manifest(f, &m);
     fails(f, "lost.png", "does not exist");
-    m = manifest_of(f);
-    m.exposure_given = false;
-    m.exposure_patch_px = (struct rect){ 0, 0, 100, 100 };
-    save_manifest(f, &m);
-    fails(f, "photograph.png", "exposure patch 0,0 to 100,100: lies outside");
     m = manifest_of("000003");
     save_manifest(f, &m);
     fails(f, "frames/000002/frame.json", "is of frame \"000003\": \"000002\" would be right");

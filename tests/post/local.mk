@@ -1,9 +1,4 @@
 # Checks of staffage-post's modules.
-check_PROGRAMS += tests/post/exposure.test
-tests_post_exposure_test_SOURCES = %D%/exposure.c tests/tap.h
-nodist_EXTRA_tests_post_exposure_test_SOURCES = dummy.cxx
-tests_post_exposure_test_LDADD = $(POST_LIBS)
-
 check_PROGRAMS += tests/post/labels.test
 tests_post_labels_test_SOURCES = %D%/labels.c tests/tap.h
 nodist_EXTRA_tests_post_labels_test_SOURCES = dummy.cxx

@@ -1,4 +1,3 @@
-#include "post/exposure.h"
 #include "post/mist.h"
 #include "post/optics.h"
 #include "post/transfer.h"
@@ -148,26 +147,10 @@ static void a_view_is_veiled(void)
     image_release(&ground);
 }
 
-/* Ground of 0.3 through air that keeps half of it back, with haze of 0.4 before it, is a pixel of 0.35. */
-static void exposure_looks_through_the_air(void)
-{
-    const double radiance[3] = { 0.15, 0.15, 0.15 }, air[3] = { 0.4, 0.4, 0.4 }, bright[3] = { 0.9, 0.9, 0.9 };
-    struct exposure e = { .fitted = true, .median = { 0.35, 0.35, 0.35 } };
-    struct error err = ERROR_NONE;
-    OK(exposure_clear(&e, 0.5, air, radiance, true, &err), "a haze that the ground is brighter than: %s", err.text);
-    for (int c = 0; c < 3; c++) NEAR(e.k[c], 2, 1e-12, "the ground alone tells the exposure");
-    OK(!exposure_clear(&e, 0.5, bright, radiance, true, &err) && err.code == ERR_INPUT, "a haze brighter than all of it is refused: %s", err.text);
-}
-
 int main(void)
 {
-    NEAR(mist_transmission(200, 200), 0.05, 1e-12, "at the visibility a twentieth of the contrast remains");
-    NEAR(mist_transmission(200, 100), root, 1e-10, "at half of it the square root");
-    NEAR(mist_transmission(200, 0), 1, 0, "here, all");
-    NEAR(mist_transmission(200, (double)NAN), 1, 0, "at no known distance, all");
     check_transfers();
     check_entity();
     a_view_is_veiled();
-    exposure_looks_through_the_air();
     return tap_done();
 }

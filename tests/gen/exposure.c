@@ -1,4 +1,4 @@
-#include "post/exposure.h"
+#include "gen/light/exposure.h"
 
 #include "tests/tap.h"
 
@@ -35,6 +35,8 @@ static void check_samples(void)
     for (int i = 0; i < 60; i++) q[i] = (struct vec2){ i % 20 + 0.5, i / 20 + 0.999 };
     if (!OK(exposure_fit_samples(&e, &photograph, q, 60, radiance, true, &err), "samples here and there are fitted")) return;
     OK(e.fitted && e.samples == 42, "those that are not saturated");
+    NEAR(e.at_px.x, 7, 1e-9, "where these are: columns 0.5 to 13.5");
+    NEAR(e.at_px.y, 1.999, 1e-9, "and rows 0.999 to 2.999");
     NEAR(e.k[0], 5.0289, 1e-3, "red: median 0.50289 / 0.1, though 12 of them lie in shadow");
     NEAR(e.k[2], 0.31193, 1e-3, "blue: 0.12477 / 0.4");
     OK(exposure_fit_samples(&e, &photograph, q, 60, radiance, false, &err) && e.k[0] == e.k[2], "without white balance one k");
@@ -53,6 +55,17 @@ static void check_samples(void)
     OK(!exposure_fit_samples(&e, &photograph, q, 60, (double[]){ 0, 1, 1 }, true, &err) && strstr(err.text, "no radiance"), "and a ground without light");
 }
 
+/* Ground of 0.3 through air that keeps half of it back, with haze of 0.4 before it, is a pixel of 0.35. */
+static void exposure_looks_through_the_air(void)
+{
+    const double radiance[3] = { 0.15, 0.15, 0.15 }, air[3] = { 0.4, 0.4, 0.4 }, bright[3] = { 0.9, 0.9, 0.9 };
+    struct exposure e = { .fitted = true, .median = { 0.35, 0.35, 0.35 } };
+    struct error err = ERROR_NONE;
+    OK(exposure_clear(&e, 0.5, air, radiance, true, &err), "a haze that the ground is brighter than: %s", err.text);
+    for (int c = 0; c < 3; c++) NEAR(e.k[c], 2, 1e-12, "the ground alone tells the exposure");
+    OK(!exposure_clear(&e, 0.5, bright, radiance, true, &err) && err.code == ERR_INPUT, "a haze brighter than all of it is refused: %s", err.text);
+}
+
 int main(void)
 {
     struct image photograph = { W, H, 3, PIXEL_U8, pixels };
@@ -67,6 +80,7 @@ int main(void)
     paint(0, 2, 160, 120, 90);
     paint(2, 4, 210, 150, 120);
     if (!OK(exposure_fit(&e, &photograph, patch, radiance, true, &err), "an even patch is fitted")) return tap_done();
+    OK(e.at_px.x == 5 && e.at_px.y == 5, "where it is");
     NEAR(e.k[0], 5.0289, 1e-3, "red: median 0.50289 / 0.1, whatever a fifth of the pixels on either side are");
     NEAR(e.k[1], 1.2508, 1e-3, "green: 0.25016 / 0.2");
     NEAR(e.k[2], 0.31193, 1e-3, "blue: 0.12477 / 0.4");
@@ -75,8 +89,9 @@ int main(void)
     NEAR(e.k[0], 1.52625, 1e-3, "one k by luminance: 0.29484 / 0.19318");
     OK(e.k[0] == e.k[1] && e.k[1] == e.k[2], "for all channels");
 
-    e = exposure_given(0.7);
+    e = exposure_given(0.7, W, H);
     OK(e.k[0] == 0.7 && e.k[1] == 0.7 && e.k[2] == 0.7 && !e.fitted, "a given exposure is taken as it is");
+    OK(e.at_px.x == 10 && e.at_px.y == 5, "for the middle of the picture");
 
     refuses(&photograph, (struct rect){ 15, 0, 21, 5 }, radiance,
             "exposure patch 15,0 to 21,5: lies outside the picture of 20 x 10 pixels, or is empty");
@@ -97,5 +112,6 @@ int main(void)
     memset(pixels, 255, 3);
     OK(exposure_fit(&e, &photograph, patch, radiance, true, &err), "one pixel of a hundred may be saturated");
     check_samples();
+    exposure_looks_through_the_air();
     return tap_done();
 }

@@ -1,11 +1,6 @@
-#include "post/exposure.h"
+#include "gen/light/exposure.h"
 
-#include "lib/file.h"
-#include "post/window.h"
-
-#include <jansson.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define SATURATED_SHARE_MAX 0.01
 #define SPREAD_MAX 4.0
@@ -31,9 +26,9 @@ static double median(const double *sorted, size_t n)
     return (sorted[(n - 1) / 2] + sorted[n / 2]) / 2;
 }
 
-struct exposure exposure_given(double k)
+struct exposure exposure_given(double k, int width_px, int height_px)
 {
-    return (struct exposure){ .k = { k, k, k } };
+    return (struct exposure){ .k = { k, k, k }, .at_px = { width_px / 2.0, height_px / 2.0 } };
 }
 
 static bool check_radiance(const double ground_radiance[3], struct error *err)
@@ -89,7 +84,7 @@ static bool is_black(const struct exposure *e)
 bool exposure_fit(struct exposure *exposure, const struct image *photograph, struct rect p,
                   const double ground_radiance[3], bool white_balance, struct error *err)
 {
-    if (!window_inside(p, photograph->width_px, photograph->height_px))
+    if (rect_is_empty(p) || p.x0 < 0 || p.y0 < 0 || p.x1 > photograph->width_px || p.y1 > photograph->height_px)
         return error_set(err, ERR_INPUT, "exposure patch %d,%d to %d,%d: lies outside the picture of %d x %d pixels, or is empty",
                          p.x0, p.y0, p.x1, p.y1, photograph->width_px, photograph->height_px);
     struct values values;
@@ -105,6 +100,7 @@ bool exposure_fit(struct exposure *exposure, const struct image *photograph, str
     const double *bright = values.value + 3 * n;
     double low = bright[n / 10], high = bright[n - 1 - n / 10], share = (double)saturated / (double)n;
     e.patch_px = p;
+    e.at_px = (struct vec2){ (p.x0 + p.x1) / 2.0, (p.y0 + p.y1) / 2.0 };
     free(values.value);
 
     const char *advice = "choose a patch of evenly lit ground";
@@ -125,17 +121,21 @@ bool exposure_fit_samples(struct exposure *exposure, const struct image *photogr
                           size_t n, const double ground_radiance[3], bool white_balance, struct error *err)
 {
     struct values values;
+    struct vec2 mean = { 0, 0 };
     size_t used = 0;
     if (!check_radiance(ground_radiance, err) || !values_init(&values, n + 1, err)) return false;
     for (size_t i = 0; i < n; i++) {
         struct vec2 q = sample_px[i];
         if (!(q.x >= 0 && q.y >= 0 && q.x < photograph->width_px && q.y < photograph->height_px)) continue;
         const uint8_t *px = image_u8(photograph, (int)q.x, (int)q.y);
-        if (!is_saturated(px)) values_set(&values, used++, px);
+        if (is_saturated(px)) continue;
+        values_set(&values, used++, px);
+        mean = (struct vec2){ mean.x + (q.x - mean.x) / (double)used, mean.y + (q.y - mean.y) / (double)used };
     }
     struct exposure e = { 0 };
     if (used >= SAMPLES_MIN) e = fit(&values, used, ground_radiance, white_balance);
     e.samples = used;
+    e.at_px = mean;
     free(values.value);
     if (used < SAMPLES_MIN)
         return error_set(err, ERR_INPUT, "%zu of %zu pixels of sunlit ground are in the picture and not saturated, at least %d "
@@ -159,20 +159,4 @@ bool exposure_clear(struct exposure *exposure, double transmission, const double
     for (int c = 0; c < 3; c++)
         exposure->k[c] = white_balance ? own[c] / ground_radiance[c] : luminance(own) / luminance(ground_radiance);
     return true;
-}
-
-bool exposure_write(const char *path, const struct exposure *e, struct error *err)
-{
-    json_t *json = json_pack("{s:[f,f,f], s:b}", "exposure", e->k[0], e->k[1], e->k[2], "fitted", (int)e->fitted);
-    if (json && e->fitted) {
-        const struct rect *p = &e->patch_px;
-        if (e->samples > 0) json_object_set_new(json, "samples", json_integer((json_int_t)e->samples));
-        else json_object_set_new(json, "patch_px", json_pack("[i,i,i,i]", p->x0, p->y0, p->x1, p->y1));
-        json_object_set_new(json, "median_linear", json_pack("[f,f,f]", e->median[0], e->median[1], e->median[2]));
-    }
-    char *text = json ? json_dumps(json, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) : NULL;
-    bool ok = text ? file_write(path, text, strlen(text), err) : error_set(err, ERR_MEMORY, "no memory for %s", path);
-    free(text);
-    json_decref(json);
-    return ok;
 }

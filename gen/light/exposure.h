@@ -1,23 +1,25 @@
 /* How bright the render must be to belong into the photograph. */
-#ifndef STAFFAGE_POST_EXPOSURE_H
-#define STAFFAGE_POST_EXPOSURE_H
+#ifndef STAFFAGE_GEN_EXPOSURE_H
+#define STAFFAGE_GEN_EXPOSURE_H
 
 #include "lib/error.h"
 #include "lib/image.h"
-#include "lib/view.h"
+#include "lib/rect.h"
+#include "lib/vec.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 
 struct exposure {
     double k[3];        /* linear photograph value per unit of radiance, for R, G and B */
+    struct vec2 at_px;  /* where in the picture that is so: its middle, if it was given; that of the patch; the mean of the samples */
     bool fitted;
     struct rect patch_px; /* of a fit to a patch, else empty */
     size_t samples;     /* of a fit to samples, else 0: how many were of use */
     double median[3];   /* of the fit: linear values of the patch or the samples */
 };
 
-struct exposure exposure_given(double k);
+struct exposure exposure_given(double k, int width_px, int height_px);
 
 /* Fit to a patch of unshadowed ground: its median over the radiance of the rendered ground,
  * channel by channel (white_balance) or one k by luminance.
@@ -41,8 +43,5 @@ bool exposure_fit_samples(struct exposure *exposure, const struct image *photogr
  * Err: ERR_INPUT: the ground is not brighter than the haze before it */
 bool exposure_clear(struct exposure *exposure, double transmission, const double haze[3],
                     const double ground_radiance[3], bool white_balance, struct error *err);
-
-/* As JSON, for people and for the next fit. */
-bool exposure_write(const char *path, const struct exposure *exposure, struct error *err);
 
 #endif

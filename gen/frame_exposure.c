@@ -1,0 +1,113 @@
+#include "gen/frame_impl.h"
+
+#include "gen/sunlit.h"
+#include "lib/air.h"
+#include "lib/file.h"
+#include "lib/photograph.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Of the ground in the open, as the plane pass renders it. */
+static void ground_radiance(double rgb[3], const struct frame *f)
+{
+    const struct scene *s = f->scene;
+    light_irradiance(rgb, f->context->light, s->ground.normal);
+    for (int c = 0; c < 3; c++) rgb[c] *= s->ground_albedo[c];
+    if (s->ground_reflection <= 0 || s->exposure_of_roads) return;
+    /* A wet ground mirrors the sky as well: as seen in the middle of the exposure patch. */
+    struct vec2 middle = { (s->exposure_patch_px[0].x + s->exposure_patch_px[1].x) / 2,
+                           (s->exposure_patch_px[0].y + s->exposure_patch_px[1].y) / 2 };
+    struct error ignored = ERROR_NONE;
+    struct vec3 p;
+    if (!ground_from_pixel(&p, &s->ground, f->camera, f->shot->world_from_camera, frame_scaled_px(f, middle), &ignored)) return;
+    struct vec3 d = vec3_unit(vec3_sub(p, f->shot->world_from_camera.translation));
+    double cosine = -vec3_dot(d, s->ground.normal), sky[3];
+    double share = s->ground_reflection + (1 - s->ground_reflection) * pow(1 - cosine, 5);
+    light_sky_radiance(sky, f->context->light, vec3_add(d, vec3_scale(s->ground.normal, 2 * cosine)));
+    for (int c = 0; c < 3; c++) rgb[c] += share * sky[c];
+}
+
+static struct rect patch_px(const struct frame *f)
+{
+    struct vec2 a = frame_scaled_px(f, f->scene->exposure_patch_px[0]), b = frame_scaled_px(f, f->scene->exposure_patch_px[1]);
+    return (struct rect){ (int)floor(a.x), (int)floor(a.y), (int)ceil(b.x), (int)ceil(b.y) };
+}
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* How far away the ground is that pixels show: the median, 0 where none is known. */
+static bool ground_distance(double *distance_m, const struct frame *f, const struct vec2 *q_px, size_t n, struct error *err)
+{
+    size_t known = 0;
+    double *range = calloc(n + 1, sizeof *range);
+    if (!range) return error_set(err, ERR_MEMORY, "no memory for an exposure");
+    for (size_t i = 0; i < n; i++) {
+        struct vec3 p;
+        if (frame_ground_at(&p, f, q_px[i])) range[known++] = vec3_norm(vec3_sub(p, f->shot->world_from_camera.translation));
+    }
+    qsort(range, known, sizeof *range, ascending);
+    *distance_m = known ? range[known / 2] : 0;
+    free(range);
+    return true;
+}
+
+/* Without the air between the camera and the pixels that were fitted to. A new view has none yet. */
+static bool clear(struct frame *f, const struct vec2 *q_px, size_t n, const double radiance[3], struct error *err)
+{
+    const struct scene *s = f->scene;
+    double distance = 0;
+    if (!s->has_mist || !f->photograph[0]) return true;
+    return ground_distance(&distance, f, q_px, n, err) &&
+           exposure_clear(&f->exposure, air_transmission(s->visibility_m, distance), s->haze, radiance, s->white_balance, err);
+}
+
+static bool fit_to_patch(struct frame *f, const double radiance[3], struct error *err)
+{
+    struct rect patch = patch_px(f);
+    struct vec2 middle = { (patch.x0 + patch.x1) / 2.0, (patch.y0 + patch.y1) / 2.0 };
+    return exposure_fit(&f->exposure, &f->picture, patch, radiance, f->scene->white_balance, err) &&
+           clear(f, &middle, 1, radiance, err);
+}
+
+static bool fit_to_roads(struct frame *f, const double radiance[3], struct error *err)
+{
+    struct vec2 *sample_px = NULL;
+    size_t n = 0;
+    if (!sunlit_pixels(&sample_px, &n, f->stage, f->context->light, f->camera, f->shot->world_from_camera, err)) return false;
+    bool ok = n > 0 || error_set(err, ERR_INPUT, "exposure.roads: frame %s shows no road in full light to be fitted to: give "
+                                 "exposure.value, or leave the shot in line %d out", f->name, f->shot->source.line);
+    ok = ok && exposure_fit_samples(&f->exposure, &f->picture, sample_px, n, radiance, f->scene->white_balance, err) &&
+         clear(f, sample_px, n, radiance, err);
+    free(sample_px);
+    return ok;
+}
+
+bool frame_read_picture(struct frame *f, struct error *err)
+{
+    if (f->picture.data) return true; /* a new view's was rendered */
+    char *path = path_from_folder(f->context->out_folder, f->photograph);
+    bool ok = (path || error_set(err, ERR_MEMORY, "no memory for a path")) &&
+              photograph_read(&f->picture, path, f->camera->width_px, f->camera->height_px, err);
+    free(path);
+    return ok;
+}
+
+bool frame_expose(struct frame *f, struct error *err)
+{
+    const struct scene *s = f->scene;
+    double radiance[3];
+    if (s->exposure_given) {
+        f->exposure = exposure_given(s->exposure, f->camera->width_px, f->camera->height_px);
+        return true;
+    }
+    if (!frame_read_picture(f, err)) return false;
+    ground_radiance(radiance, f);
+    if (s->exposure_of_roads ? fit_to_roads(f, radiance, err) : fit_to_patch(f, radiance, err)) return true;
+    stage_fail(s, s->exposure_source, err);
+    return error_prefix(err, "%s: ", f->photograph[0] ? f->photograph : "a new view");
+}
