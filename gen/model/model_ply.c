@@ -10,31 +10,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What a property of a vertex says. */
-enum role { X, Y, Z, NX, NY, NZ, U, V, RED, GREEN, BLUE, ROLE_COUNT, NO_ROLE = ROLE_COUNT };
-static const struct { const char *name; enum role role; } roles[] = {
-    { "x", X }, { "y", Y }, { "z", Z }, { "nx", NX }, { "ny", NY }, { "nz", NZ },
-    { "u", U }, { "v", V }, { "s", U }, { "t", V }, { "texture_u", U }, { "texture_v", V },
-    { "red", RED }, { "green", GREEN }, { "blue", BLUE },
-};
-
 struct reader {
     struct ply ply;
     struct mesh mesh;
-    bool has[ROLE_COUNT];
+    bool has[PLY_ROLE_COUNT];
     double color_sum[3];
     size_t triangle_capacity;
     struct error *err;
 };
 
 #define FAIL(r, ...) error_at((r)->err, ERR_INPUT, (r)->ply.path, 0, 0, __VA_ARGS__)
-
-static enum role find_role(const struct ply_property *p)
-{
-    for (size_t i = 0; !p->is_list && i < sizeof roles / sizeof *roles; i++)
-        if (!strcmp(p->name, roles[i].name)) return roles[i].role;
-    return NO_ROLE;
-}
 
 static bool add_triangle(struct reader *r, const uint32_t corner[3])
 {
@@ -69,23 +54,23 @@ static bool read_list(struct reader *r, bool *ended, const struct ply_property *
     return true;
 }
 
-static void take(struct reader *r, uint64_t vertex, const double value[ROLE_COUNT])
+static void take(struct reader *r, uint64_t vertex, const double value[PLY_ROLE_COUNT])
 {
     struct mesh *m = &r->mesh;
     for (int k = 0; k < 3; k++) {
-        m->position_m[vertex][k] = (float)value[X + k];
-        if (m->normal) m->normal[vertex][k] = (float)value[NX + k];
-        r->color_sum[k] += value[RED + k];
+        m->position_m[vertex][k] = (float)value[PLY_X + k];
+        if (m->normal) m->normal[vertex][k] = (float)value[PLY_NX + k];
+        r->color_sum[k] += value[PLY_RED + k];
     }
-    if (m->uv) m->uv[vertex][0] = (float)value[U], m->uv[vertex][1] = (float)value[V];
+    if (m->uv) m->uv[vertex][0] = (float)value[PLY_U], m->uv[vertex][1] = (float)value[PLY_V];
 }
 
 static bool read_element(struct reader *r, const struct ply_element *e, bool is_vertex)
 {
-    enum role role[PLY_PROPERTIES];
-    for (size_t k = 0; k < e->property_count; k++) role[k] = find_role(&e->properties[k]);
+    enum ply_role role[PLY_PROPERTIES];
+    for (size_t k = 0; k < e->property_count; k++) role[k] = ply_role(&e->properties[k]);
     for (uint64_t i = 0; i < e->count; i++) {
-        double value[ROLE_COUNT + 1] = { 0 };
+        double value[PLY_ROLE_COUNT] = { 0 };
         bool ended = false;
         for (size_t k = 0; k < e->property_count && !ended; k++) {
             const struct ply_property *p = &e->properties[k];
@@ -94,7 +79,7 @@ static bool read_element(struct reader *r, const struct ply_element *e, bool is_
                 continue;
             }
             ended = !ply_read(&r->ply, &value[role[k]], p->type);
-            if (role[k] >= RED && role[k] <= BLUE)
+            if (role[k] >= PLY_RED && role[k] <= PLY_BLUE)
                 value[role[k]] = (double)linear_from_srgb((float)ply_color(value[role[k]], p->type));
         }
         if (ended) return ply_truncated(&r->ply, e, i, r->err);
@@ -106,10 +91,10 @@ static bool read_element(struct reader *r, const struct ply_element *e, bool is_
 static bool start_vertices(struct reader *r, const struct ply_element *e)
 {
     for (size_t k = 0; k < e->property_count; k++)
-        if (find_role(&e->properties[k]) != NO_ROLE) r->has[find_role(&e->properties[k])] = true;
-    if (!r->has[X] || !r->has[Y] || !r->has[Z]) return FAIL(r, "the PLY header gives vertices no x, y and z");
-    bool normals = r->has[NX] && r->has[NY] && r->has[NZ];
-    return mesh_init(&r->mesh, (size_t)e->count, 0, normals, r->has[U] && r->has[V] && r->ply.texture_count > 0, r->err);
+        r->has[ply_role(&e->properties[k])] = true;
+    if (!r->has[PLY_X] || !r->has[PLY_Y] || !r->has[PLY_Z]) return FAIL(r, "the PLY header gives vertices no x, y and z");
+    bool normals = r->has[PLY_NX] && r->has[PLY_NY] && r->has[PLY_NZ];
+    return mesh_init(&r->mesh, (size_t)e->count, 0, normals, r->has[PLY_U] && r->has[PLY_V] && r->ply.texture_count > 0, r->err);
 }
 
 static bool read_elements(struct reader *r)
@@ -133,7 +118,7 @@ static bool hand_over(struct reader *r, struct import *import)
     if (!material) return false;
     material->material.names_only = true;
     material->base_replaces_color = true;
-    if (r->has[RED] && r->has[GREEN] && r->has[BLUE] && r->mesh.vertices)
+    if (r->has[PLY_RED] && r->has[PLY_GREEN] && r->has[PLY_BLUE] && r->mesh.vertices)
         for (int k = 0; k < 3; k++) material->material.base_color[k] = r->color_sum[k] / (double)r->mesh.vertices;
     if (r->mesh.uv && (material->base = import_add_image(import, r->ply.textures[0], r->err)) == NO_IMAGE) return false;
     return import_add_mesh(import, &r->mesh, r->err);

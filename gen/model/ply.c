@@ -127,6 +127,20 @@ double ply_color(double value, enum ply_type type)
     return c > 0 ? c < 1 ? c : 1 : 0; /* a NaN becomes 0 */
 }
 
+enum ply_role ply_role(const struct ply_property *property)
+{
+    static const struct { const char *name; enum ply_role role; } roles[] = {
+        { "x", PLY_X }, { "y", PLY_Y }, { "z", PLY_Z }, { "nx", PLY_NX }, { "ny", PLY_NY }, { "nz", PLY_NZ },
+        { "u", PLY_U }, { "v", PLY_V }, { "s", PLY_U }, { "t", PLY_V }, { "texture_u", PLY_U }, { "texture_v", PLY_V },
+        { "red", PLY_RED }, { "green", PLY_GREEN }, { "blue", PLY_BLUE },
+        { "diffuse_red", PLY_RED }, { "diffuse_green", PLY_GREEN }, { "diffuse_blue", PLY_BLUE },
+        { "label", PLY_LABEL }, { "texnumber", PLY_TEXTURE },
+    };
+    for (size_t i = 0; !property->is_list && i < sizeof roles / sizeof *roles; i++)
+        if (!strcmp(property->name, roles[i].name)) return roles[i].role;
+    return PLY_NO_ROLE;
+}
+
 bool ply_is_indices(const struct ply_property *property)
 {
     return property->is_list && (!strcmp(property->name, "vertex_indices") || !strcmp(property->name, "vertex_index"));

@@ -13,6 +13,12 @@ enum { PLY_ELEMENTS = 16, PLY_PROPERTIES = 64, PLY_TEXTURES = 64 };
 
 enum ply_type { PLY_INT8, PLY_UINT8, PLY_INT16, PLY_UINT16, PLY_INT32, PLY_UINT32, PLY_FLOAT32, PLY_FLOAT64, PLY_TYPE_COUNT };
 
+/* What a number of a vertex or a face says, by the names that scanners and editors give it. */
+enum ply_role {
+    PLY_X, PLY_Y, PLY_Z, PLY_NX, PLY_NY, PLY_NZ, PLY_U, PLY_V, PLY_RED, PLY_GREEN, PLY_BLUE, PLY_LABEL, PLY_TEXTURE,
+    PLY_NO_ROLE, PLY_ROLE_COUNT
+};
+
 struct ply_property { char name[32]; bool is_list; enum ply_type count_type, type; };
 struct ply_element {
     char name[32];
@@ -47,6 +53,7 @@ bool ply_truncated(const struct ply *ply, const struct ply_element *element, uin
 
 /* A colour channel as a share of full, 0 to 1: integers count to 255, floats to 1. */
 double ply_color(double value, enum ply_type type);
+enum ply_role ply_role(const struct ply_property *property);
 bool ply_is_indices(const struct ply_property *property);
 
 #endif

@@ -7,14 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum role { X, Y, Z, RED, GREEN, BLUE, U, V, LABEL, TEXTURE, ROLE_COUNT, NO_ROLE = ROLE_COUNT };
-static const struct { const char *name; enum role role; } roles[] = {
-    { "x", X }, { "y", Y }, { "z", Z }, { "red", RED }, { "green", GREEN }, { "blue", BLUE },
-    { "diffuse_red", RED }, { "diffuse_green", GREEN }, { "diffuse_blue", BLUE },
-    { "u", U }, { "v", V }, { "s", U }, { "t", V }, { "texture_u", U }, { "texture_v", V },
-    { "label", LABEL }, { "texnumber", TEXTURE },
-};
-
 struct reader {
     struct ply ply;
     struct static_mesh *mesh;
@@ -28,18 +20,11 @@ struct reader {
 
 #define FAIL(r, ...) error_at((r)->err, ERR_INPUT, (r)->ply.path, 0, 0, __VA_ARGS__)
 
-static enum role find_role(const struct ply_property *p)
-{
-    for (size_t i = 0; !p->is_list && i < sizeof roles / sizeof *roles; i++)
-        if (!strcmp(p->name, roles[i].name)) return roles[i].role;
-    return NO_ROLE;
-}
-
 /* Out: role (property_count), has */
-static void find_roles(enum role *role, bool has[ROLE_COUNT + 1], const struct ply_element *e)
+static void find_roles(enum ply_role *role, bool has[PLY_ROLE_COUNT], const struct ply_element *e)
 {
     for (size_t k = 0; k < e->property_count; k++) {
-        role[k] = find_role(&e->properties[k]);
+        role[k] = ply_role(&e->properties[k]);
         has[role[k]] = true;
     }
 }
@@ -65,26 +50,26 @@ static bool read_list(struct reader *r, size_t *count, const struct ply_property
 
 static bool read_vertices(struct reader *r, const struct ply_element *e)
 {
-    enum role role[PLY_PROPERTIES];
-    bool has[ROLE_COUNT + 1] = { false };
+    enum ply_role role[PLY_PROPERTIES];
+    bool has[PLY_ROLE_COUNT] = { false };
     size_t count;
     find_roles(role, has, e);
-    if (!has[X] || !has[Y] || !has[Z]) return FAIL(r, "the PLY header gives vertices no x, y and z");
-    bool colored = has[RED] && has[GREEN] && has[BLUE];
+    if (!has[PLY_X] || !has[PLY_Y] || !has[PLY_Z]) return FAIL(r, "the PLY header gives vertices no x, y and z");
+    bool colored = has[PLY_RED] && has[PLY_GREEN] && has[PLY_BLUE];
     if (!static_mesh_reserve_vertices(r->mesh, (size_t)e->count, colored, r->err)) return false;
-    if (has[U] && has[V] && r->ply.texture_count > 0 && !(r->uv = malloc(((size_t)e->count + 1) * sizeof *r->uv)))
+    if (has[PLY_U] && has[PLY_V] && r->ply.texture_count > 0 && !(r->uv = malloc(((size_t)e->count + 1) * sizeof *r->uv)))
         return error_set(r->err, ERR_MEMORY, "no memory for a mesh");
     for (uint64_t i = 0; i < e->count; i++) {
-        double value[ROLE_COUNT + 1] = { 0 };
+        double value[PLY_ROLE_COUNT] = { 0 };
         for (size_t k = 0; k < e->property_count; k++) {
             const struct ply_property *p = &e->properties[k];
             if (!(p->is_list ? read_list(r, &count, p) : ply_read(&r->ply, &value[role[k]], p->type)))
                 return ply_truncated(&r->ply, e, i, r->err);
-            if (role[k] >= RED && role[k] <= BLUE) value[role[k]] = ply_color(value[role[k]], p->type);
+            if (role[k] >= PLY_RED && role[k] <= PLY_BLUE) value[role[k]] = ply_color(value[role[k]], p->type);
         }
-        static_mesh_place(r->mesh, i, vec3(value[X], value[Y], value[Z]));
-        for (int c = 0; colored && c < 3; c++) r->mesh->color[i][c] = static_srgb(value[RED + c]);
-        if (r->uv) r->uv[i][0] = (float)value[U], r->uv[i][1] = (float)value[V];
+        static_mesh_place(r->mesh, i, vec3(value[PLY_X], value[PLY_Y], value[PLY_Z]));
+        for (int c = 0; colored && c < 3; c++) r->mesh->color[i][c] = static_srgb(value[PLY_RED + c]);
+        if (r->uv) r->uv[i][0] = (float)value[PLY_U], r->uv[i][1] = (float)value[PLY_V];
     }
     r->mesh->vertices = (size_t)e->count;
     return true;
@@ -95,7 +80,7 @@ struct face {
     uint32_t *corner;   /* (corner_capacity) */
     double *uv;         /* (uvs) u, v of each corner */
     size_t corner_capacity, uv_capacity;
-    double value[ROLE_COUNT + 1];
+    double value[PLY_ROLE_COUNT];
 };
 
 static bool take_corners(struct reader *r, struct face *f, size_t n)
@@ -134,7 +119,7 @@ static bool add_face(struct reader *r, const struct face *f, bool uv_of_face)
     if (f->corners < 3) return true;
     if (!static_mesh_reserve_triangles(m, m->triangles + f->corners - 2, r->err)) return false;
     bool textured = m->texture && (uv_of_face ? f->uvs == 2 * f->corners : r->uv != NULL);
-    double number = f->value[TEXTURE];
+    double number = f->value[PLY_TEXTURE];
     if (textured && !(number >= 0 && number < (double)r->ply.texture_count))
         return FAIL(r, "a face has texture %.0f of %zu", number, r->ply.texture_count);
     for (size_t i = 2; i < f->corners; i++, m->triangles++) {
@@ -145,13 +130,13 @@ static bool add_face(struct reader *r, const struct face *f, bool uv_of_face)
                 m->uv[m->triangles][c][k] = uv_of_face ? (float)f->uv[2 * pick[c] + (size_t)k] : r->uv[vertex][k];
         }
         if (textured) m->texture[m->triangles] = r->textures[(int)number];
-        if (m->label) m->label[m->triangles] = (int16_t)(f->value[LABEL] == STATIC_LABEL_UNKNOWN ? -1 : f->value[LABEL]);
-        for (int c = 0; m->face_color && c < 3; c++) m->face_color[m->triangles][c] = static_srgb(f->value[RED + c]);
+        if (m->label) m->label[m->triangles] = (int16_t)(f->value[PLY_LABEL] == STATIC_LABEL_UNKNOWN ? -1 : f->value[PLY_LABEL]);
+        for (int c = 0; m->face_color && c < 3; c++) m->face_color[m->triangles][c] = static_srgb(f->value[PLY_RED + c]);
     }
     return true;
 }
 
-static bool read_face(struct reader *r, struct face *f, const struct ply_element *e, const enum role *role, uint64_t index)
+static bool read_face(struct reader *r, struct face *f, const struct ply_element *e, const enum ply_role *role, uint64_t index)
 {
     f->corners = f->uvs = 0;
     for (size_t k = 0; k < e->property_count; k++) {
@@ -159,12 +144,12 @@ static bool read_face(struct reader *r, struct face *f, const struct ply_element
         size_t n;
         if (!(p->is_list ? read_list(r, &n, p) : ply_read(&r->ply, &f->value[role[k]], p->type)))
             return ply_truncated(&r->ply, e, index, r->err);
-        if (role[k] >= RED && role[k] <= BLUE) f->value[role[k]] = ply_color(f->value[role[k]], p->type);
+        if (role[k] >= PLY_RED && role[k] <= PLY_BLUE) f->value[role[k]] = ply_color(f->value[role[k]], p->type);
         if (ply_is_indices(p) && !take_corners(r, f, n)) return false;
         if (p->is_list && !strcmp(p->name, "texcoord") && !take_uvs(r, f, n)) return false;
     }
-    if (!(f->value[LABEL] >= -1 && f->value[LABEL] <= STATIC_LABEL_UNKNOWN && f->value[LABEL] == floor(f->value[LABEL])))
-        return FAIL(r, "face %llu has label %g: 0 to %d would be right", (unsigned long long)index, f->value[LABEL], STATIC_LABEL_UNKNOWN);
+    if (!(f->value[PLY_LABEL] >= -1 && f->value[PLY_LABEL] <= STATIC_LABEL_UNKNOWN && f->value[PLY_LABEL] == floor(f->value[PLY_LABEL])))
+        return FAIL(r, "face %llu has label %g: 0 to %d would be right", (unsigned long long)index, f->value[PLY_LABEL], STATIC_LABEL_UNKNOWN);
     return true;
 }
 
@@ -177,12 +162,12 @@ static bool has_texcoord(const struct ply_element *e)
 
 static bool read_faces(struct reader *r, const struct ply_element *e)
 {
-    enum role role[PLY_PROPERTIES];
-    bool has[ROLE_COUNT + 1] = { false }, uv_of_face = has_texcoord(e) && r->ply.texture_count > 0;
+    enum ply_role role[PLY_PROPERTIES];
+    bool has[PLY_ROLE_COUNT] = { false }, uv_of_face = has_texcoord(e) && r->ply.texture_count > 0;
     find_roles(role, has, e);
     if (!static_mesh_reserve_triangles(r->mesh, (size_t)e->count, r->err)) return false;
-    if (has[LABEL] && !static_mesh_with_labels(r->mesh, r->err)) return false;
-    if (has[RED] && has[GREEN] && has[BLUE] && !r->mesh->color && !static_mesh_with_face_colors(r->mesh, r->err)) return false;
+    if (has[PLY_LABEL] && !static_mesh_with_labels(r->mesh, r->err)) return false;
+    if (has[PLY_RED] && has[PLY_GREEN] && has[PLY_BLUE] && !r->mesh->color && !static_mesh_with_face_colors(r->mesh, r->err)) return false;
     if (uv_of_face || r->uv) {
         if (!static_mesh_with_textures(r->mesh, r->err)) return false;
         for (size_t i = 0; i < r->ply.texture_count; i++)

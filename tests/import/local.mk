@@ -14,12 +14,12 @@ nodist_EXTRA_tests_import_georeference_test_SOURCES = dummy.cxx
 tests_import_georeference_test_LDADD = $(IMPORT_LIBS)
 
 check_PROGRAMS += tests/import/nerfstudio.test
-tests_import_nerfstudio_test_SOURCES = %D%/nerfstudio.c %D%/scratch.h tests/tap.h
+tests_import_nerfstudio_test_SOURCES = %D%/nerfstudio.c %D%/refusals.h %D%/scratch.h tests/tap.h
 nodist_EXTRA_tests_import_nerfstudio_test_SOURCES = dummy.cxx
 tests_import_nerfstudio_test_LDADD = $(IMPORT_LIBS)
 
 check_PROGRAMS += tests/import/opensfm.test
-tests_import_opensfm_test_SOURCES = %D%/opensfm.c %D%/scratch.h tests/tap.h
+tests_import_opensfm_test_SOURCES = %D%/opensfm.c %D%/refusals.h %D%/scratch.h tests/tap.h
 nodist_EXTRA_tests_import_opensfm_test_SOURCES = dummy.cxx
 tests_import_opensfm_test_LDADD = $(IMPORT_LIBS)
 

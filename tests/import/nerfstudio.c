@@ -1,5 +1,6 @@
 #include "import/reconstruction.h"
 
+#include "tests/import/refusals.h"
 #include "tests/import/scratch.h"
 
 /* A camera at (1, 2, 3) of the applied world, turned by the rotation vector (0.3, -0.2, 0.9), and a point at
@@ -71,7 +72,7 @@ static void cameras_by_frame(void)
 
 static void bad_files(void)
 {
-    static const struct { const char *what, *json, *error; } cases[] = {
+    static const struct bad_file cases[] = {
         { "a file cut off", "{\"w\": 800,\n", "/transforms.json:2:1: string or '}' expected near end of file" },
         { "no frames", "{" LENS "}", "/transforms.json: \"frames\" is missing" },
         { "an empty list of frames", "{" LENS ", \"frames\": []}", "/transforms.json: holds no image with a pose" },
@@ -93,13 +94,7 @@ static void bad_files(void)
           "/transforms.json: frame 1: \"k4\" is not 0, and of perspective lenses k1 to k3 are understood" },
         { "a scale that was applied", "{" LENS ", \"applied_scale\": 0.5, " FRAMES "}", "/transforms.json: \"applied_scale\" is 0.5, and only 1 is understood" },
     };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct reconstruction r;
-        struct error err;
-        bool read = reads(&r, cases[i].json, &err);
-        if (!OK(!read && !strcmp(scratch_error(&err), cases[i].error), "refuses %s", cases[i].what)) printf("# %s\n", scratch_error(&err));
-        if (read) reconstruction_release(&r);
-    }
+    refuses(cases, sizeof cases / sizeof *cases, reads);
 }
 
 int main(void)

@@ -1,5 +1,6 @@
 #include "import/reconstruction.h"
 
+#include "tests/import/refusals.h"
 #include "tests/import/scratch.h"
 
 /* A point at (3, 4, 1), seen through each lens by a camera that is turned by (1.7, 0.3, -0.4). Where it is seen was
@@ -77,7 +78,7 @@ static void world(void)
 
 static void bad_files(void)
 {
-    static const struct { const char *what, *json, *error; } cases[] = {
+    static const struct bad_file cases[] = {
         { "a file cut off", "[\n{\"cameras\": {", "/reconstruction.json:2:13: string or '}' expected near end of file" },
         { "another kind of file", "{}", "/reconstruction.json:1:1: must be an array" },
         { "no reconstruction", "[]", "/reconstruction.json: holds no reconstruction" },
@@ -93,13 +94,7 @@ static void bad_files(void)
         { "a shot without a turn", "[{" CAMERA("perspective", "\"focal\": 0.8") ", \"shots\": {\"a.jpg\": {\"translation\": [0, 0, 0], \"camera\": \"c\"}}}]",
           "/reconstruction.json: shot \"a.jpg\": \"rotation\" is missing" },
     };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct reconstruction r;
-        struct error err;
-        bool read = reads(&r, cases[i].json, &err);
-        if (!OK(!read && !strcmp(scratch_error(&err), cases[i].error), "refuses %s", cases[i].what)) printf("# %s\n", scratch_error(&err));
-        if (read) reconstruction_release(&r);
-    }
+    refuses(cases, sizeof cases / sizeof *cases, reads);
 }
 
 int main(void)
