@@ -1,7 +1,9 @@
 # cast: the program that makes the models which come with Staffage, and the models, made in the folder models/.
 noinst_PROGRAMS += staffage-cast
+staffage_cast_CPPFLAGS = $(AM_CPPFLAGS) $(JANSSON_CFLAGS)
 staffage_cast_SOURCES = \
   %D%/glb.c %D%/glb.h \
+  %D%/listing.c %D%/listing.h \
   %D%/main.c \
   %D%/mesh.c %D%/mesh.h \
   %D%/obj.c \
@@ -9,18 +11,17 @@ staffage_cast_SOURCES = \
   %D%/sedan.c \
   %D%/skeleton.c %D%/skeleton.h \
   %D%/walk.c %D%/walk.h
-staffage_cast_LDADD = lib/libstaffage.a -lm
+staffage_cast_LDADD = lib/libstaffage.a $(JANSSON_LIBS) -lm
 EXTRA_DIST += %D%/README.md
 
-OWN_MODELS = models/sedan.obj models/man-walking.obj models/man-standing.obj \
-  models/woman-walking.obj models/woman-standing.obj
-OWN_WALKERS = models/walker-man.glb models/walker-woman.glb
-noinst_DATA = $(OWN_MODELS) $(OWN_WALKERS)
-CLEANFILES += $(OWN_MODELS) $(OWN_MODELS:.obj=.mtl) $(OWN_WALKERS)
-# One run makes them all; with the stamp, one run is what happens under make -j. The recipe that does
-# nothing keeps automake's rule for Windows objects from compiling sedan.c into sedan.obj.
-$(OWN_MODELS) $(OWN_WALKERS): models/made.stamp
-	@:
-models/made.stamp: staffage-cast$(EXEEXT)
-	$(AM_V_GEN)./staffage-cast$(EXEEXT) models && touch $@
-CLEANFILES += models/made.stamp
+# What it makes is listed in the catalogue, and made in one run; make install takes what the run left.
+noinst_DATA = models/catalogue.json
+models/catalogue.json: staffage-cast$(EXEEXT)
+	$(AM_V_GEN)rm -rf models && ./staffage-cast$(EXEEXT) models
+modelsdir = $(pkgdatadir)/models
+install-data-local: models/catalogue.json
+	$(MKDIR_P) '$(DESTDIR)$(modelsdir)' && $(INSTALL_DATA) models/* '$(DESTDIR)$(modelsdir)'
+uninstall-local:
+	rm -rf '$(DESTDIR)$(modelsdir)'
+clean-local:
+	rm -rf models

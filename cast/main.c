@@ -1,12 +1,39 @@
 /* Writes our own models: `staffage-cast FOLDER` makes OBJ and MTL files there, in metres, z up,
  * front +x, and people that walk as GLB files. The same numbers give the same bytes on every run. */
 #include "cast/glb.h"
+#include "cast/listing.h"
 #include "cast/mesh.h"
 #include "lib/file.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #define COUNT(a) (sizeof(a) / sizeof *(a))
+
+/* What can be told from a model before it is written: NAME.obj in metres, z up, front +x, or NAME.glb. */
+static bool list_model(struct listing *listing, const struct model *model, const char *name, bool moves, struct error *err)
+{
+    static const char *const walk[] = { "walk", NULL };
+    struct vec3 low = model->triangles[0].p[0], high = low;
+    char file[64];
+    for (size_t i = 0; i < model->count; i++)
+        for (int k = 0; k < 3; k++) {
+            struct vec3 p = model->triangles[i].p[k];
+            low = vec3(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
+            high = vec3(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
+        }
+    bool person = model->triangles[0].material >= SKIN;
+    snprintf(file, sizeof file, "%s.%s", name, moves ? "glb" : "obj");
+    struct listed listed = { .name = name, .class_ = person ? "person" : "car", .kind = person ? "person" : "vehicle", .file = file,
+                             .length_m = high.x - low.x, .width_m = high.y - low.y, .height_m = high.z - low.z,
+                             .triangles = { model->count }, .animations = moves ? walk : NULL };
+    if (!moves) {
+        listed.unit_m = 1;
+        listed.up = "+z";
+        listed.front = "+x";
+    }
+    return listing_add(listing, &listed, err);
+}
 
 int main(int argc, char **argv)
 {
@@ -38,20 +65,23 @@ int main(int argc, char **argv)
     }
     struct error err = ERROR_NONE;
     struct model model = { 0 };
+    struct listing listing = { 0 };
     bool good = folder_make(argv[1], &err);
     if (good) make_sedan(&model);
-    good = good && write_model(&model, argv[1], "sedan", &sedan_colors, &err);
+    good = good && list_model(&listing, &model, "sedan", false, &err) && write_model(&model, argv[1], "sedan", &sedan_colors, &err);
     for (size_t i = 0; good && i < COUNT(people); i++) {
         make_person(&model, NULL, people[i].build, people[i].stance, people[i].build == MAN ? 1.78 : 1.66);
-        good = write_model(&model, argv[1], people[i].name, &people[i].palette, &err);
+        good = list_model(&listing, &model, people[i].name, false, &err) && write_model(&model, argv[1], people[i].name, &people[i].palette, &err);
     }
     for (size_t i = 0; good && i < COUNT(walkers); i++) {
         struct skeleton skeleton;
         static struct walk walk;
         make_person(&model, &skeleton, walkers[i].build, READY, walkers[i].build == MAN ? 1.78 : 1.66);
         make_walk(&walk, &skeleton, &model);
-        good = write_walker(&model, &skeleton, &walk, argv[1], walkers[i].name, &walkers[i].palette, &err);
+        good = list_model(&listing, &model, walkers[i].name, true, &err) &&
+               write_walker(&model, &skeleton, &walk, argv[1], walkers[i].name, &walkers[i].palette, &err);
     }
+    good = good && listing_write(&listing, argv[1], &err);
     if (!good) error_print(&err, "staffage-cast");
     return error_exit_status(&err);
 }

@@ -1,4 +1,5 @@
 /* staffage-fuse: options in, one call, an exit code out. */
+#include "gen/model/catalogue.h"
 #include "gen/scene/scene.h"
 #include "gen/trace/fusion.h"
 #include "gen/trace/semantic.h"
@@ -73,11 +74,12 @@ static bool fuse(const struct options *o, struct error *err)
     struct scene *scene = NULL;
     struct static_mesh *mesh = NULL;
     struct fusion *fusion = NULL;
+    struct catalogue_folders folders = { 0 };
     struct fusion_counts counts;
     uint8_t *label = NULL, (*color)[3] = NULL;
     size_t images, faces = 0;
     bool ok = false;
-    if (!scene_read(&scene, o->scene, err)) goto out;
+    if (!catalogue_folders_init(&folders, PKGDATADIR, err) || !scene_read(&scene, o->scene, folders.list, err)) goto out;
     if (!scene->static_.mesh) {
         error_at(err, ERR_INPUT, scene->path, 0, 0, "has no mesh that labels could be fused onto: \"static: {mesh: FILE}\" would be right");
         goto out;
@@ -105,6 +107,7 @@ out:
     fusion_destroy(fusion);
     static_mesh_destroy(mesh);
     scene_destroy(scene);
+    catalogue_folders_release(&folders);
     return ok;
 }
 

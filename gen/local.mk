@@ -3,6 +3,7 @@ noinst_LIBRARIES += gen/libgen.a
 gen_libgen_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(TINYGLTF_CFLAGS) $(ASSIMP_CFLAGS) \
   $(ERFA_CFLAGS) $(YAML_CFLAGS) $(JANSSON_CFLAGS) $(READOSM_CFLAGS)
 gen_libgen_a_SOURCES = \
+  %D%/detail.c %D%/detail.h \
   %D%/frame.c %D%/frame.h %D%/frame_impl.h \
   %D%/frame_exposure.c \
   %D%/frame_manifest.c \
@@ -16,6 +17,8 @@ gen_libgen_a_SOURCES = \
   %D%/light/sky_image.h \
   %D%/light/sun.c %D%/light/sun.h \
   %D%/model/affine.c %D%/model/affine.h \
+  %D%/model/catalogue.c %D%/model/catalogue.h \
+  %D%/model/catalogue_folders.c \
   %D%/model/gltf.cpp %D%/model/gltf.h \
   %D%/model/gltf_accessor.c \
   %D%/model/gltf_material.c \
@@ -51,6 +54,7 @@ gen_libgen_a_SOURCES = \
   %D%/scene/nearest.c %D%/scene/nearest.h \
   %D%/scene/scene.c %D%/scene/scene.h \
   %D%/scene/scene_cast.c \
+  %D%/scene/scene_choice.c \
   %D%/scene/scene_keys.c %D%/scene/scene_keys.h \
   %D%/scene/scene_light.c \
   %D%/scene/scene_pose.c %D%/scene/scene_pose.h \
@@ -113,6 +117,7 @@ nodist_EXTRA_staffage_gen_SOURCES = dummy.cxx
 staffage_gen_LDADD = $(GEN_LIBS)
 
 bin_PROGRAMS += staffage-fuse
+staffage_fuse_CPPFLAGS = $(AM_CPPFLAGS) -DPKGDATADIR='"$(pkgdatadir)"'
 staffage_fuse_SOURCES = %D%/fuse_main.c
 nodist_EXTRA_staffage_fuse_SOURCES = dummy.cxx
 staffage_fuse_LDADD = $(GEN_LIBS)

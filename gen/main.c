@@ -1,5 +1,6 @@
 /* staffage-gen: options in, one call, an exit code out. */
 #include "gen/generator.h"
+#include "gen/model/catalogue.h"
 #include "gen/render/makefile.h"
 #include "gen/render/passes.h"
 #include "gen/scene/scene.h"
@@ -65,10 +66,11 @@ static bool generate(const struct options *o, struct error *err)
     struct makefile_frame *entries = NULL;
     size_t *chosen = NULL, n = 0, kept = 0, made = 0, failed = 0;
     struct error first = ERROR_NONE;
+    struct catalogue_folders folders = { 0 };
     char *templates = string_format("%s/templates", data_folder());
     char *rules = string_format("%s/templates/materials.rules", data_folder());
     bool ok = false;
-    if (!scene_read(&scene, o->scene, err)) goto out;
+    if (!catalogue_folders_init(&folders, PKGDATADIR, err) || !scene_read(&scene, o->scene, folders.list, err)) goto out;
     if (o->quality >= 0) scene->quality = (enum quality)o->quality;
     if (o->has_seed) scene->seed = o->seed;
     if (!generator_create(&generator, scene, o->out, rules, err)) goto out;
@@ -134,6 +136,7 @@ out:
     free(results);
     generator_destroy(generator);
     scene_destroy(scene);
+    catalogue_folders_release(&folders);
     free(rules);
     free(templates);
     return ok;

@@ -7,14 +7,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* In: color linear, or NULL */
+static void paint(struct entity *entity, const double *color)
+{
+    entity->has_color = color != NULL;
+    if (color) memcpy(entity->color, color, sizeof entity->color);
+}
+
 static struct entity scene_entity(const struct stage *stage, size_t i)
 {
     const struct scene_entity *e = &stage->scene->entities[i];
-    return (struct entity){
-        .id = (uint16_t)(i + 1), .name = e->name, .model_name = e->model, .class_ = e->class_,
-        .model = stage->models[e->model_index], .has_color = e->has_color,
-        .color = { e->color[0], e->color[1], e->color[2] },
-    };
+    size_t model = stage->cast[i];
+    struct entity entity = { .id = (uint16_t)(i + 1), .name = e->name, .model_name = stage->scene->models[model].name,
+                             .class_ = stage_class(stage, i), .model = stage->models[model] };
+    paint(&entity, e->has_color ? e->color : stage_color(stage, model, entity.id));
+    return entity;
 }
 
 /* Stand an entity at (x, y): people upright, vehicles as their wheels have it. */
@@ -62,7 +69,7 @@ static bool add_entity(struct moment *moment, const struct stage *stage, size_t 
     struct vec2 p = stage->stand_m[i];
     double heading = e->heading_rad, way_m = 0, speed = 0;
     *entity = scene_entity(stage, i);
-    moment->model_index[moment->n] = e->model_index;
+    moment->model_index[moment->n] = stage->cast[i];
     if (stage->courses[i]) {
         const struct path *path = &stage->courses[i]->path;
         double s = e->start_m + e->speed_m_s * time_s;
@@ -89,14 +96,15 @@ static bool add_mover(struct moment *moment, const struct stage *stage, const st
 {
     const struct scene *s = stage->scene;
     const struct scene_movers *movers = mover->is_person ? &s->people : &s->vehicles;
-    size_t model = movers->models[mover->kind];
+    size_t model = movers->choice.models[mover->kind];
     struct entity *entity = &moment->entities[moment->n];
     char *name = moment->names[moment->n];
     snprintf(name, MOVER_NAME_SIZE, "%s %d", mover->is_person ? "person" : "vehicle", (int)mover->id);
     *entity = (struct entity){ .id = mover->id, .name = name, .model_name = s->models[model].name,
-                               .class_ = s->models[model].class_, .model = stage->models[model],
-                               .has_color = !mover->is_person && mover->color >= 0 };
-    if (entity->has_color) memcpy(entity->color, movers->colors[mover->color], sizeof entity->color);
+                               .class_ = s->models[model].class_, .model = stage->models[model] };
+    /* What comes in one colour only, a taxi or a fire engine, keeps it. */
+    bool painted = !mover->is_person && mover->color >= 0 && s->models[model].color_count != 1;
+    paint(entity, painted ? movers->colors[mover->color] : stage_color(stage, model, mover->id));
     moment->model_index[moment->n] = model;
     if (!stand(entity, stage, mover->p_m, mover->heading_rad, err)) {
         stage_fail(s, movers->source, err);

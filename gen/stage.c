@@ -1,7 +1,9 @@
 #include "gen/stage.h"
 
+#include "gen/detail.h"
 #include "gen/model/rig.h"
 #include "gen/moment.h"
+#include "lib/draw.h"
 #include "gen/scene/nearest.h"
 #include "gen/world/ground.h"
 #include "lib/file.h"
@@ -83,14 +85,15 @@ static bool load_model(struct stage *stage, size_t index, const struct material_
         options.has_class = true;
         options.class_ = class_;
     }
-    if (!model_load(&stage->models[index], named->file, &options, err)) return false;
+    const char *file = detail_file(named, stage->details[index]);
+    if (!model_load(&stage->models[index], file, &options, err)) return false;
     struct model *model = stage->models[index];
     if (model->rig && !gait_create(&stage->gaits[index], model, err)) return false;
     for (size_t k = 0; k < model->missing_texture_count; k++)
         if (!warn(stage, string_format("%s: texture \"%s\" not found beside it or in the folders around it; its material has its "
-                                       "plain colour", named->file, model->missing_textures[k]), err))
+                                       "plain colour", file, model->missing_textures[k]), err))
             return false;
-    stage->hash = hash_model(stage->hash, model);
+    stage->hash = hash_bytes(hash_model(stage->hash, model), named->colors, named->color_count * sizeof *named->colors);
     return true;
 }
 
@@ -99,21 +102,54 @@ static bool warn_of_gliding(struct stage *stage, size_t model, struct error *err
 {
     if (stage->models[model]->rig) return true;
     return warn(stage, string_format("%s: has no animation: as traffic it glides over the ground; glTF with a skin walks",
-                                     stage->scene->models[model].file), err);
+                                     stage->models[model]->path), err);
 }
 
 static bool load_models(struct stage *stage, const struct material_rules *rules, struct error *err)
 {
     const struct scene *s = stage->scene;
     for (size_t i = 0; i < s->entity_count; i++)
-        if (!load_model(stage, s->entities[i].model_index, rules, s->entities[i].class_, err)) return false;
+        if (!load_model(stage, stage->cast[i], rules, stage_class(stage, i), err)) return false;
     const struct scene_movers *const movers[] = { &s->vehicles, &s->people };
     for (int k = 0; k < 2; k++)
-        for (size_t i = 0; i < movers[k]->model_count; i++)
-            if (!load_model(stage, movers[k]->models[i], rules, s->models[movers[k]->models[i]].class_, err) ||
-                (movers[k] == &s->people && !warn_of_gliding(stage, movers[k]->models[i], err)))
+        for (size_t i = 0; i < movers[k]->choice.count; i++) {
+            size_t model = movers[k]->choice.models[i];
+            if (!load_model(stage, model, rules, s->models[model].class_, err) ||
+                (movers[k] == &s->people && !warn_of_gliding(stage, model, err)))
                 return false;
+        }
     return true;
+}
+
+/* --- who is who --- */
+
+static void cast_entities(struct stage *stage)
+{
+    const struct scene *s = stage->scene;
+    for (size_t i = 0; i < s->entity_count; i++) {
+        const struct scene_choice *choice = &s->entities[i].choice;
+        struct draw_key key = { .seed = (uint64_t)s->seed, .entity = (uint32_t)(i + 1), .purpose = DRAW_CAST };
+        stage->cast[i] = choice->models[draw_weighted(key, choice->weights, choice->count)];
+        stage->hash = hash_bytes(stage->hash, &stage->cast[i], sizeof stage->cast[i]);
+    }
+}
+
+enum entity_class stage_class(const struct stage *stage, size_t entity)
+{
+    const struct scene_entity *e = &stage->scene->entities[entity];
+    return e->has_class ? e->class_ : stage->scene->models[stage->cast[entity]].class_;
+}
+
+const double *stage_color(const struct stage *stage, size_t model, uint16_t id)
+{
+    const struct scene_model *of = &stage->scene->models[model];
+    struct draw_key key = { .seed = (uint64_t)stage->scene->seed, .entity = id, .purpose = DRAW_PAINT };
+    double sum = 0;
+    for (size_t i = 0; i < of->color_count; i++) sum += of->colors[i].weight;
+    double left = draw_uniform(key, 0) * sum;
+    size_t i = 0;
+    while (i + 1 < of->color_count && left >= of->colors[i].weight) left -= of->colors[i++].weight;
+    return of->color_count ? of->colors[i].linear : NULL;
 }
 
 /* --- where things are --- */
@@ -295,11 +331,12 @@ static bool load_place(struct stage *stage, struct error *err)
 
 static bool list_kinds(struct mover_kind **kinds, const struct stage *stage, const struct scene_movers *movers, struct error *err)
 {
-    *kinds = calloc(movers->model_count + 1, sizeof **kinds);
+    const struct scene_choice *choice = &movers->choice;
+    *kinds = calloc(choice->count + 1, sizeof **kinds);
     if (!*kinds) return out_of_memory(err);
-    for (size_t i = 0; i < movers->model_count; i++) {
-        const struct model *model = stage->models[movers->models[i]];
-        (*kinds)[i] = (struct mover_kind){ movers->models[i], movers->weights[i], model->max_m.x - model->min_m.x,
+    for (size_t i = 0; i < choice->count; i++) {
+        const struct model *model = stage->models[choice->models[i]];
+        (*kinds)[i] = (struct mover_kind){ choice->models[i], choice->weights[i], model->max_m.x - model->min_m.x,
                                            model->max_m.y - model->min_m.y };
     }
     return true;
@@ -318,7 +355,7 @@ static bool start_traffic(struct stage *stage, struct error *err)
     bool ok = list_kinds(&vehicles, stage, &s->vehicles, err) && list_kinds(&people, stage, &s->people, err);
     if (ok) {
         struct traffic_options options = {
-            .vehicles = vehicles, .people = people, .vehicle_kinds = s->vehicles.model_count, .people_kinds = s->people.model_count,
+            .vehicles = vehicles, .people = people, .vehicle_kinds = s->vehicles.choice.count, .people_kinds = s->people.choice.count,
             .vehicle_count = s->vehicles.count, .people_count = s->people.count,
             .vehicle_speed_m_s = s->vehicles.speed_m_s, .people_speed_m_s = s->people.speed_m_s, .lateral_m_s2 = 2,
             .color_count = s->vehicles.color_count, .first_id = (uint16_t)(s->entity_count + 1), .seed = (uint64_t)s->seed,
@@ -353,17 +390,20 @@ bool stage_create(struct stage **out, const struct scene *scene, const struct ma
     struct stage *stage = calloc(1, sizeof *stage);
     if (!stage) return out_of_memory(err);
     *stage = (struct stage){ .scene = scene, .hash = FILE_HASH_SEED };
+    stage->cast = calloc(scene->entity_count + 1, sizeof *stage->cast);
+    stage->details = calloc(scene->model_count + 1, sizeof *stage->details);
     stage->models = calloc(scene->model_count + 1, sizeof *stage->models);
     stage->gaits = calloc(scene->model_count + 1, sizeof *stage->gaits);
     stage->stand_m = calloc(scene->entity_count + 1, sizeof *stage->stand_m);
     stage->courses = calloc(scene->entity_count + 1, sizeof *stage->courses);
-    if (!stage->models || !stage->gaits || !stage->stand_m || !stage->courses) {
+    if (!stage->cast || !stage->details || !stage->models || !stage->gaits || !stage->stand_m || !stage->courses) {
         out_of_memory(err);
         goto failed;
     }
-    if (!load_models(stage, rules, err) || !load_place(stage, err) || !place_entities(stage, err) ||
-        !start_traffic(stage, err) || !check_overlaps(stage, err))
-        goto failed;
+    cast_entities(stage);
+    if (!load_place(stage, err) || !place_entities(stage, err)) goto failed;
+    details_choose(stage->details, stage);
+    if (!load_models(stage, rules, err) || !start_traffic(stage, err) || !check_overlaps(stage, err)) goto failed;
     *out = stage;
     return true;
 failed:
@@ -383,6 +423,8 @@ void stage_destroy(struct stage *stage)
     for (size_t i = 0; stage->models && i < stage->scene->model_count; i++) model_destroy(stage->models[i]);
     for (size_t i = 0; i < stage->warning_count; i++) free(stage->warnings[i]);
     free(stage->warnings);
+    free(stage->cast);
+    free(stage->details);
     free(stage->models);
     free(stage->gaits);
     free(stage->stand_m);

@@ -21,6 +21,8 @@
 /* To read. */
 struct stage {
     const struct scene *scene;
+    size_t *cast;                /* (scene->entity_count) which model each is, drawn where the scene leaves a choice */
+    enum detail *details;        /* (scene->model_count) */
     struct model **models;       /* (scene->model_count) NULL where nothing uses it */
     struct gait *gaits;          /* (scene->model_count) of the models that are rigged */
     struct static_mesh *mesh;    /* NULL: the ground is a plane */
@@ -40,6 +42,12 @@ struct stage {
  * Err: ERR_INPUT at the user's file and line */
 bool stage_create(struct stage **stage, const struct scene *scene, const struct material_rules *rules, struct error *err);
 void stage_destroy(struct stage *stage);
+
+/* The class of an entity of the scene. */
+enum entity_class stage_class(const struct stage *stage, size_t entity);
+/* The colour, linear, that one of this id is painted in when the scene gives none: drawn from those that its model
+ * is seen in. NULL: its model's own */
+const double *stage_color(const struct stage *stage, size_t model, uint16_t id);
 
 /* The ground that a shot's pixel shows, in pixels of its camera as the scene gives it.
  * Err: ERR_INPUT without a place: it shows none */

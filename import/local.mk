@@ -12,7 +12,6 @@ import_libimport_a_SOURCES = \
   %D%/georeference_distance.c \
   %D%/georeference_ties.c \
   %D%/gps_ties.c %D%/gps_ties.h \
-  %D%/json_file.c %D%/json_file.h \
   %D%/nerfstudio.c \
   %D%/opensfm.c \
   %D%/path_from.c %D%/path_from.h \

@@ -1,4 +1,4 @@
-#include "import/json_file.h"
+#include "lib/json_file.h"
 #include "import/reconstruction.h"
 #include "lib/file.h"
 

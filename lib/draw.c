@@ -27,6 +27,16 @@ double draw_uniform(struct draw_key key, uint32_t index)
     return (double)(hash >> 11) * 0x1p-53;
 }
 
+size_t draw_weighted(struct draw_key key, const double *weights, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) sum += weights[i];
+    double left = draw_uniform(key, 0) * sum;
+    size_t i = 0;
+    while (i + 1 < n && left >= weights[i]) left -= weights[i++];
+    return i;
+}
+
 double draw_normal(struct draw_key key, uint32_t index)
 {
     double p = draw_uniform(key, index) + 0x1p-54; /* never 0 */

@@ -8,6 +8,7 @@ lib_libstaffage_a_SOURCES = \
   %D%/error.c %D%/error.h \
   %D%/file.c %D%/file.h \
   %D%/image.c %D%/image.h %D%/image_io.cpp \
+  %D%/json_file.c %D%/json_file.h \
   %D%/json_walk.c %D%/json_walk.h \
   %D%/opencv.h \
   %D%/photograph.c %D%/photograph.h \

@@ -151,6 +151,16 @@ check_PROGRAMS += tests/gen/passes.test
 tests_gen_passes_test_SOURCES = %D%/gen/passes.c %D%/gen/povray.h %D%/tap.h
 nodist_EXTRA_tests_gen_passes_test_SOURCES = dummy.cxx
 tests_gen_passes_test_LDADD = $(GEN_LIBS)
+check_PROGRAMS += tests/gen/casting.test
+tests_gen_casting_test_SOURCES = %D%/gen/casting.c %D%/gen/model_files.h %D%/tap.h
+nodist_EXTRA_tests_gen_casting_test_SOURCES = dummy.cxx
+tests_gen_casting_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/catalogue.test
+tests_gen_catalogue_test_SOURCES = %D%/gen/catalogue.c %D%/gen/model_files.h %D%/tap.h
+nodist_EXTRA_tests_gen_catalogue_test_SOURCES = dummy.cxx
+tests_gen_catalogue_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/gait.test
 tests_gen_gait_test_SOURCES = %D%/gen/gait.c %D%/gen/model_files.h %D%/gen/walker_files.h %D%/tap.h
 nodist_EXTRA_tests_gen_gait_test_SOURCES = dummy.cxx

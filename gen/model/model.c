@@ -23,6 +23,22 @@ static const struct { const char *extension; bool (*import)(struct import *, con
     { ".ply", import_ply, false }, { ".dae", import_assimp, false }, { ".fbx", import_assimp, false },
 };
 
+const char *axis_name(enum axis axis)
+{
+    static const char *const names[] = { "+x", "-x", "+y", "-y", "+z", "-z" };
+    return names[axis];
+}
+
+bool axis_from_name(enum axis *axis, const char *name)
+{
+    for (int i = AXIS_POS_X; i <= AXIS_NEG_Z; i++)
+        if (!strcmp(name, axis_name((enum axis)i)) || (i % 2 == 0 && !strcmp(name, axis_name((enum axis)i) + 1))) {
+            *axis = (enum axis)i;
+            return true;
+        }
+    return false;
+}
+
 static struct vec3 axis_vector(enum axis axis)
 {
     double sign = axis % 2 ? -1 : 1;

@@ -31,6 +31,10 @@ struct model {
 
 /* An axis of the file's own coordinates. */
 enum axis { AXIS_POS_X, AXIS_NEG_X, AXIS_POS_Y, AXIS_NEG_Y, AXIS_POS_Z, AXIS_NEG_Z };
+/* "+x" and so on. */
+const char *axis_name(enum axis axis);
+/* Takes "x" for "+x", too. Returns false for other texts (no error is set). */
+bool axis_from_name(enum axis *axis, const char *name);
 
 struct model_options {
     double unit_m;      /* metres to a unit of the file; 0: by length_m, or 1 for glTF; other formats must say */

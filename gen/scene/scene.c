@@ -122,13 +122,14 @@ static bool check_version(const struct reading *r, const struct yaml_node *root)
                 "staffage: version %d of the scene format; this program reads version %d", version, SCENE_VERSION);
 }
 
-bool scene_read(struct scene **out, const char *path, struct error *err)
+bool scene_read(struct scene **out, const char *path, const char *const *model_folders, struct error *err)
 {
     char *data = NULL;
     size_t size;
     struct yaml_node *root = NULL;
     struct scene *scene = calloc(1, sizeof *scene);
-    struct reading r = { scene, path, NULL, err };
+    struct scene_library library = { .folders = model_folders };
+    struct reading r = { scene, path, NULL, &library, err };
     if (!scene) return out_of_memory(&r);
     if (!file_read(&data, &size, path, err)) goto out;
     scene->hash = hash_bytes(FILE_HASH_SEED, data, size);
@@ -153,10 +154,17 @@ bool scene_read(struct scene **out, const char *path, struct error *err)
     *out = scene;
     scene = NULL;
 out:
+    catalogue_destroy(library.catalogue);
     yaml_destroy(root);
     free(data);
     scene_destroy(scene);
     return err->code == ERR_OK;
+}
+
+static void choice_release(struct scene_choice *choice)
+{
+    free(choice->models);
+    free(choice->weights);
 }
 
 void scene_destroy(struct scene *scene)
@@ -175,17 +183,17 @@ void scene_destroy(struct scene *scene)
     }
     struct scene_movers *const movers[] = { &scene->vehicles, &scene->people };
     for (int i = 0; i < 2; i++) {
-        free(movers[i]->models);
-        free(movers[i]->weights);
+        choice_release(&movers[i]->choice);
         free(movers[i]->colors);
     }
     for (size_t i = 0; i < scene->model_count; i++) {
         free(scene->models[i].name);
-        free(scene->models[i].file);
+        free(scene->models[i].colors);
+        for (int k = 0; k < DETAIL_COUNT; k++) free(scene->models[i].files[k]);
     }
     for (size_t i = 0; i < scene->entity_count; i++) {
         free(scene->entities[i].name);
-        free(scene->entities[i].model);
+        choice_release(&scene->entities[i].choice);
         free(scene->entities[i].path);
     }
     for (size_t i = 0; i < scene->occluder_count; i++) {

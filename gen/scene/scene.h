@@ -9,6 +9,7 @@
 #include "gen/world/entity.h"
 #include "gen/world/ground.h"
 #include "gen/world/road.h"
+#include "gen/model/catalogue.h"
 #include "gen/model/model.h"
 #include "gen/light/sun.h"
 #include "lib/camera.h"
@@ -25,13 +26,23 @@ struct source { int line, column; };
 
 enum place_kind { PLACE_WORLD, PLACE_GEODETIC, PLACE_PIXEL };
 
+/* A model under `models`, or one of the catalogue that something asks for. */
 struct scene_model {
     char *name;
-    char *file;                /* resolved against the scene file */
+    char *files[DETAIL_COUNT]; /* resolved paths, as in the catalogue; one under `models` has the first only */
     struct model_options options; /* rules are filled in later */
     bool has_class;
     enum entity_class class_;
+    struct model_color *colors; /* (color_count) that it is seen in */
+    size_t color_count;
     struct source source;
+};
+
+/* One model, or several of which one is drawn. */
+struct scene_choice {
+    size_t *models;            /* (count) indices into scene.models */
+    double *weights;
+    size_t count;
 };
 
 struct scene_camera { char *name; struct camera camera; struct source source; }; /* at the size that it was given for */
@@ -70,9 +81,7 @@ struct scene_path {
 /* Vehicles or people that come by themselves. */
 struct scene_movers {
     size_t count;              /* 0: none */
-    size_t *models;            /* (model_count) indices into scene.models */
-    double *weights;
-    size_t model_count;
+    struct scene_choice choice;
     double speed_m_s;
     double (*colors)[3];       /* (color_count) linear */
     size_t color_count;
@@ -81,8 +90,8 @@ struct scene_movers {
 
 struct scene_entity {
     char *name;
-    char *model;               /* names a scene_model */
-    size_t model_index;
+    struct scene_choice choice;
+    bool has_class;            /* else its class is its model's */
     enum entity_class class_;
     enum place_kind place;
     double at[3];              /* WORLD: x, y m · GEODETIC: latitude, longitude deg · PIXEL: x, y px of the shot */
@@ -195,8 +204,10 @@ struct scene {
 
 /* Read and check a scene file. Everything that the file alone can tell is checked here,
  * files that it names exist.
+ * In:  model_folders   where catalogues are looked for after the folder models beside the scene file; ends with
+ *                      NULL. NULL: nowhere else. Read only when the scene asks for a model that is not its own
  * Err: ERR_INPUT at file:line:column with what is wrong and what would be right */
-bool scene_read(struct scene **scene, const char *path, struct error *err);
+bool scene_read(struct scene **scene, const char *path, const char *const *model_folders, struct error *err);
 void scene_destroy(struct scene *scene);
 
 /* One line a key, for the test that keeps docs/scene.md complete: "path\ttype\tunit\tdefault\n". */

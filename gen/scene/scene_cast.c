@@ -1,4 +1,3 @@
-#include "gen/scene/nearest.h"
 #include "gen/scene/scene_keys.h"
 #include "gen/scene/scene_read.h"
 
@@ -33,7 +32,7 @@ static bool read_model(const struct reading *r, struct scene_model *model, const
     model->source = source_of(node);
     model->name = strdup(name);
     if (!model->name) return out_of_memory(r);
-    if (!scene_copy_path(r, &model->file, file)) return false;
+    if (!scene_copy_path(r, &model->files[DETAIL_NEAR], file)) return false;
     bool stated = format_has_units(file->text);
     if (!stated && !unit && !length && !height)
         return FAIL(r, node,
@@ -70,23 +69,6 @@ bool scene_read_models(const struct reading *r, const struct yaml_node *node)
     for (size_t i = 0; i < node->count; i++)
         if (!read_model(r, &scene->models[i], node->keys[i].text, node->items[i])) return false;
     return true;
-}
-
-bool scene_find_model(const struct reading *r, size_t *index, const char *name, const struct yaml_node *node,
-                      const char *who)
-{
-    const struct scene *scene = r->scene;
-    struct nearest nearest = { NULL, 0 };
-    for (size_t i = 0; i < scene->model_count; i++) {
-        if (!strcmp(scene->models[i].name, name)) {
-            *index = i;
-            return true;
-        }
-        nearest_offer(&nearest, name, scene->models[i].name);
-    }
-    if (nearest.name)
-        return FAIL(r, node, "%s: unknown model \"%.80s\" (did you mean \"%s\"?)", who, name, nearest.name);
-    return FAIL(r, node, "%s: unknown model \"%.80s\" (it must be one of the names under models)", who, name);
 }
 
 static bool read_at(const struct reading *r, struct scene_entity *entity, const struct yaml_node *at, const char *who)
@@ -140,20 +122,19 @@ static bool read_entity(const struct reading *r, struct scene_entity *entity, co
 {
     const struct yaml_node *name = yaml_get(node, "name"), *model = yaml_get(node, "model");
     const struct yaml_node *class_ = yaml_get(node, "class"), *color = yaml_get(node, "color");
-    const struct scene *scene = r->scene;
     entity->source = source_of(node);
-    if (!scene_copy_text(r, &entity->name, name) || !scene_copy_text(r, &entity->model, model)) return false;
+    if (!scene_copy_text(r, &entity->name, name)) return false;
     char who[160];
     snprintf(who, sizeof who, "entity \"%s\"", entity->name);
-    if (!scene_find_model(r, &entity->model_index, model->text, model, who)) return false;
-    const struct scene_model *of = &scene->models[entity->model_index];
-    if (class_)
-        entity->class_ = (enum entity_class)schema_choice(class_choice_name, class_);
-    else if (of->has_class)
-        entity->class_ = of->class_;
-    else
-        return FAIL(r, node,
-                    "entity \"%s\": class is missing, and its model \"%.80s\" has none", entity->name, of->name);
+    if (!scene_read_choice(r, &entity->choice, model, who)) return false;
+    entity->has_class = class_ != NULL;
+    if (class_) entity->class_ = (enum entity_class)schema_choice(class_choice_name, class_);
+    for (size_t i = 0; !class_ && i < entity->choice.count; i++) {
+        const struct scene_model *of = &r->scene->models[entity->choice.models[i]];
+        if (!of->has_class)
+            return FAIL(r, node,
+                        "entity \"%s\": class is missing, and its model \"%.80s\" has none", entity->name, of->name);
+    }
     entity->has_color = color != NULL;
     if (color) scene_read_color(entity->color, color);
     return read_course(r, entity, node, who);

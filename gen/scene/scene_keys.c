@@ -74,7 +74,7 @@ const char *class_choice_name(int i)
 #define MOVERS(at, speed)                                                                             \
     { at, TYPE_MAPPING, .presence = OPTIONAL },                                                       \
     { at ".count", TYPE_INTEGER, .presence = REQUIRED, LIMITS(1, 5000) },                             \
-    { at ".models", TYPE_NAMED, .presence = REQUIRED },                                               \
+    { at ".models", TYPE_TEXT | TYPE_TEXTS | TYPE_WEIGHTS | TYPE_NAMED, .presence = REQUIRED },         \
     { at ".models.NAME.weight", TYPE_NUMBER, .preset = "1", ABOVE(0, INFINITY) },                     \
     { at ".speed_m_s", TYPE_NUMBER, "m/s", .preset = speed, ABOVE(0, 100) }
 
@@ -170,7 +170,7 @@ static const struct schema_key keys[] = {
 
     { "entities", TYPE_ITEMS, .preset = "[]" },
     { "entities[].name", TYPE_TEXT, .presence = REQUIRED, .count_max = 120 },
-    { "entities[].model", TYPE_TEXT, .presence = REQUIRED },
+    { "entities[].model", TYPE_TEXT | TYPE_TEXTS | TYPE_WEIGHTS, .presence = REQUIRED },
     { "entities[].class", TYPE_CHOICE, .choice = class_choice_name },
     { "entities[].at", TYPE_MAPPING, .presence = ONE_OF },
     { "entities[].at.world_m", TYPE_NUMBERS, "m", .presence = ONE_OF, COUNT(2) },

@@ -8,7 +8,15 @@
 #include "gen/scene/yaml.h"
 #include "lib/error.h"
 
-struct reading { struct scene *scene; const char *path; const struct yaml_node *root; struct error *err; };
+/* The catalogue, read when the first name is looked up in it. */
+struct scene_library { const char *const *folders; struct catalogue *catalogue; };
+struct reading {
+    struct scene *scene;
+    const char *path;
+    const struct yaml_node *root;
+    struct scene_library *library;
+    struct error *err;
+};
 
 #define FAIL(r, node, ...) \
     error_at((r)->err, ERR_INPUT, (r)->path, (node)->line, (node)->column, __VA_ARGS__)
@@ -42,9 +50,9 @@ bool scene_read_entities(const struct reading *r, const struct yaml_node *node);
 bool scene_read_occluders(const struct reading *r, const struct yaml_node *node);
 bool scene_read_roads(const struct reading *r, const struct yaml_node *root);
 bool scene_read_traffic(const struct reading *r, const struct yaml_node *node);
-/* Find a model by its name. In: who wants it, for the error */
-bool scene_find_model(const struct reading *r, size_t *index, const char *name, const struct yaml_node *node,
-                      const char *who);
+/* A name of a model, "any CLASS", a list of these, or each with its weight.
+ * In: who wants it, for the error */
+bool scene_read_choice(const struct reading *r, struct scene_choice *choice, const struct yaml_node *node, const char *who);
 /* Does a pixel position lie in the picture of a shot? In: who, for the error */
 bool scene_check_pixel(const struct reading *r, struct vec2 q_px, size_t shot, const struct yaml_node *node,
                        const char *who);

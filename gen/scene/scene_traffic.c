@@ -71,25 +71,18 @@ static bool read_movers(const struct reading *r, struct scene_movers *movers, co
     yaml_integer(&count, yaml_get(node, "count"));
     movers->count = (size_t)count;
     movers->speed_m_s = number_at(node, "speed_m_s");
-    if (!models->count) return FAIL(r, models, "%s.models: names none", who);
-    movers->models = calloc(models->count, sizeof *movers->models);
-    movers->weights = calloc(models->count, sizeof *movers->weights);
+    if (!scene_read_choice(r, &movers->choice, models, who)) return false;
     movers->colors = calloc(color_count + 1, sizeof *movers->colors);
-    if (!movers->models || !movers->weights || !movers->colors) return out_of_memory(r);
-    movers->model_count = models->count;
+    if (!movers->colors) return out_of_memory(r);
     movers->color_count = color_count;
     for (size_t i = 0; i < color_count; i++) schema_color(movers->colors[i], colors->items[i]);
-    for (size_t i = 0; i < models->count; i++) {
-        const struct yaml_node key = { .kind = YAML_SCALAR, .text = models->keys[i].text, .line = models->keys[i].line,
-                                       .column = models->keys[i].column };
-        if (!scene_find_model(r, &movers->models[i], key.text, &key, who)) return false;
-        if (!r->scene->models[movers->models[i]].has_class)
-            return FAIL(r, &key, "%s: model \"%.80s\" must say its class", who, key.text);
-        const struct class_info *is = class_info(r->scene->models[movers->models[i]].class_);
+    for (size_t i = 0; i < movers->choice.count; i++) {
+        const struct scene_model *of = &r->scene->models[movers->choice.models[i]];
+        if (!of->has_class) return FAIL(r, models, "%s: model \"%.80s\" must say its class", who, of->name);
+        const struct class_info *is = class_info(of->class_);
         if (is->is_person != people)
-            return FAIL(r, &key, "%s: model \"%.80s\" is of class %s: %s", who, key.text, is->name,
+            return FAIL(r, models, "%s: model \"%.80s\" is of class %s: %s", who, of->name, is->name,
                         people ? "people only walk here" : "vehicles only drive here");
-        movers->weights[i] = number_at(models->items[i], "weight");
     }
     return true;
 }

@@ -7,6 +7,7 @@
 #include "lib/image.h"
 
 #include <assert.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -209,7 +210,8 @@ static bool check_item(const struct check *c, const struct schema_key *key, cons
         return good_integer(key, item) || unexpected_item(c, key, TYPE_INTEGER, list, i, item);
     if (types & TYPE_COLORS) return schema_color(color, item) || unexpected_item(c, key, TYPE_COLOR, list, i, item);
     if (item->kind != YAML_SCALAR || yaml_is_null(item) || !*item->text)
-        return unexpected_item(c, key, types & TYPE_FILES ? TYPE_FILE : TYPE_CHOICE, list, i, item);
+        return unexpected_item(c, key, types & TYPE_FILES ? TYPE_FILE : types & TYPE_TEXTS ? TYPE_TEXT : TYPE_CHOICE, list, i, item);
+    if (types & TYPE_TEXTS) return true;
     if (types & TYPE_FILES) return check_file(c, &where, item);
     return schema_choice(key->choice, item) >= 0 || unknown_choice(c, key, &where, item);
 }
@@ -219,7 +221,8 @@ static bool check_mapping(const struct check *c, const struct where *where, cons
 static bool check_sequence(const struct check *c, const struct schema_key *key, const struct where *where,
                            const struct yaml_node *node)
 {
-    if (!(key->types & (TYPE_ITEMS | TYPE_NUMBERS | TYPE_INTEGERS | TYPE_CHOICES | TYPE_FILES | TYPE_COLORS | TYPE_ROWS)) ||
+    if (!(key->types & (TYPE_ITEMS | TYPE_NUMBERS | TYPE_INTEGERS | TYPE_CHOICES | TYPE_FILES | TYPE_COLORS | TYPE_ROWS |
+                        TYPE_TEXTS)) ||
         !good_count(key, node->count))
         return unexpected(c, key, where, node);
     for (size_t i = 0; i < node->count; i++) {
@@ -238,11 +241,13 @@ static bool check_sequence(const struct check *c, const struct schema_key *key, 
 static bool check_named(const struct check *c, const struct schema_key *key, const struct where *where,
                         const struct yaml_node *node)
 {
-    struct schema_key element = *key;
-    element.types = TYPE_MAPPING;
+    struct schema_key element = { .path = key->path, .types = key->types & TYPE_WEIGHTS ? TYPE_NUMBER : TYPE_MAPPING, .max = INFINITY,
+                                  .above_min = true };
     for (size_t i = 0; i < node->count; i++) {
         struct where item = where_key(where, "NAME", node->keys[i].text);
-        if (node->items[i]->kind != YAML_MAPPING) return unexpected(c, &element, &item, node->items[i]);
+        double weight;
+        if (key->types & TYPE_WEIGHTS && yaml_number(&weight, node->items[i]) && weight > 0) continue;
+        if (!(key->types & TYPE_NAMED) || node->items[i]->kind != YAML_MAPPING) return unexpected(c, &element, &item, node->items[i]);
         if (!check_mapping(c, &item, node->items[i])) return false;
     }
     return true;
@@ -253,7 +258,7 @@ static bool check_value(const struct check *c, const struct schema_key *key, con
 {
     if (node->kind == YAML_SCALAR) return check_scalar(c, key, where, node);
     if (node->kind == YAML_SEQUENCE) return check_sequence(c, key, where, node);
-    if (key->types & TYPE_NAMED) return check_named(c, key, where, node);
+    if (key->types & (TYPE_NAMED | TYPE_WEIGHTS)) return check_named(c, key, where, node);
     if (key->types & TYPE_MAPPING) return check_mapping(c, where, node);
     return unexpected(c, key, where, node);
 }
@@ -330,12 +335,12 @@ static bool fill_mapping(const struct schema *schema, const struct where *where,
         struct where below = where_key(where, mapping->keys[i].text, "");
         const struct schema_key *key = find(schema, below.table);
         assert(key); /* the tree is checked */
-        bool named = key->types & TYPE_NAMED, listed = key->types & TYPE_ITEMS;
+        bool named = key->types & (TYPE_NAMED | TYPE_WEIGHTS), listed = key->types & TYPE_ITEMS;
         if (item->kind == YAML_MAPPING && !named && !fill_mapping(schema, &below, item, err)) return false;
         if (!named && !listed) continue;
         below = named ? where_key(&below, "NAME", "") : where_item(&below, 0);
         for (size_t j = 0; j < item->count; j++)
-            if (!fill_mapping(schema, &below, item->items[j], err)) return false;
+            if (item->items[j]->kind == YAML_MAPPING && !fill_mapping(schema, &below, item->items[j], err)) return false;
     }
     return true;
 }

@@ -28,7 +28,9 @@ enum schema_type {
     TYPE_CHOICES = 1 << 14,
     TYPE_FILES = 1 << 15,
     TYPE_COLORS = 1 << 16,  /* "#rrggbb" each */
-    TYPE_ROWS = 1 << 17     /* list of lists of `columns` numbers */
+    TYPE_ROWS = 1 << 17,    /* list of lists of `columns` numbers */
+    TYPE_TEXTS = 1 << 18,
+    TYPE_WEIGHTS = 1 << 19  /* texts of the user's, each with a number above 0; a mapping, too, with TYPE_NAMED */
 };
 
 enum schema_presence {

@@ -99,13 +99,15 @@ static void add_type(struct words *w, const struct schema_key *key, enum schema_
         snprintf(of, sizeof of, "lists of %d numbers", key->columns);
         add_list(w, key->count_min, key->count_max, of);
         break;
+    case TYPE_TEXTS: add_list(w, key->count_min, key->count_max, "texts"); break;
+    case TYPE_WEIGHTS: words_add(w, "names with a weight each"); break;
     }
 }
 
 struct words words_type(const struct schema_key *key)
 {
     struct words w = { .length = 0 };
-    for (unsigned bit = 1; bit <= TYPE_ROWS; bit <<= 1) {
+    for (unsigned bit = 1; bit <= TYPE_WEIGHTS; bit <<= 1) {
         if (!(key->types & bit)) continue;
         if (w.length) words_add(&w, " or ");
         add_type(&w, key, (enum schema_type)bit);

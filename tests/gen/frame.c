@@ -38,7 +38,7 @@ static bool make(const char *head, const char *rest, struct error *err)
                                top, head, rest);
     char *rules = string_format("%s/templates/materials.rules", top), *path = in_scratch("scene.yaml"), *out = in_scratch("out");
     put("scene.yaml", text);
-    bool ok = scene_read(&scene, path, err) && generator_create(&generator, scene, out, rules, err) &&
+    bool ok = scene_read(&scene, path, NULL, err) && generator_create(&generator, scene, out, rules, err) &&
               generator_frame(&result, generator, 0, err);
     generator_destroy(generator);
     scene_destroy(scene);

@@ -188,7 +188,7 @@ int main(void)
     copied("box.obj", "top_srcdir", "tests/input/box.obj");
     snprintf(walker, sizeof walker, "%s", copied("man.glb", "top_builddir", "models/walker-man.glb"));
     snprintf(path, sizeof path, "%s", put_text("scene.yaml", scene_text));
-    bool ok = scene_read(&scene, path, &err) && material_rules_read(&rules, rules_path, &err) && stage_create(&stage, scene, rules, &err);
+    bool ok = scene_read(&scene, path, NULL, &err) && material_rules_read(&rules, rules_path, &err) && stage_create(&stage, scene, rules, &err);
     if (OK(ok, "a stage %s:%d %s", err.file, err.line, err.text)) {
         check_paths(stage);
         check_velocities(stage);

@@ -16,7 +16,7 @@ static struct scene *read_file(const char *path)
 {
     struct error err = ERROR_NONE;
     struct scene *scene = NULL;
-    if (!scene_read(&scene, path, &err)) printf("# %s:%d:%d: %s\n", err.file, err.line, err.column, err.text);
+    if (!scene_read(&scene, path, NULL, &err)) printf("# %s:%d:%d: %s\n", err.file, err.line, err.column, err.text);
     return scene;
 }
 
@@ -86,6 +86,15 @@ static bool has_section(const char *text, const char *key)
     return false;
 }
 
+/* What comes with the program. */
+static const char *const *model_folders(void)
+{
+    static char built[600];
+    static const char *const folders[] = { built, NULL };
+    snprintf(built, sizeof built, "%s/models", getenv("top_builddir") ? getenv("top_builddir") : ".");
+    return folders;
+}
+
 /* Read a scene of these sections; those that it lacks and that are required are added.
  * NULL when it is refused: the reason is in *err. */
 static struct scene *read_sections(const char *text, struct error *err)
@@ -99,7 +108,7 @@ static struct scene *read_sections(const char *text, struct error *err)
         whole = more;
     }
     struct scene *scene = NULL;
-    if (file_write(path, whole, strlen(whole), err)) scene_read(&scene, path, err);
+    if (file_write(path, whole, strlen(whole), err)) scene_read(&scene, path, model_folders(), err);
     free(whole);
     free(path);
     return scene;
@@ -123,7 +132,7 @@ static void a_minimal_scene_takes_the_stated_defaults(void)
     NEAR(s->ground_reflection, 0, 0, "dry");
     OK(!s->exposure_given && s->white_balance, "exposure and white balance are fitted");
     OK(s->exposure_patch_px[0].x == 10 && s->exposure_patch_px[1].y == 46, "to the patch");
-    OK(s->entity_count == 1 && s->entities[0].class_ == CLASS_CAR && !s->entities[0].has_color, "the entity takes its model's class");
+    OK(s->entity_count == 1 && !s->entities[0].has_class && s->models[0].class_ == CLASS_CAR && !s->entities[0].has_color, "the entity takes its model's class");
     OK(s->occluder_count == 0 && s->transfer == TRANSFER_LAYERS && s->mask == MASK_TRACED, "layers, traced masks, no occluders");
     OK(s->quality == QUALITY_STANDARD && s->seed == 0 && !s->material_rules, "standard quality, seed 0, installed rules");
     scene_destroy(s);
@@ -150,7 +159,7 @@ static void a_full_scene_is_read_back(void)
     NEAR(s->ground_albedo[2], 0, 0, "#00 is 0");
     NEAR(s->ground_reflection, 0.125, 0, "reflection");
     OK(s->exposure_given && s->exposure == 0.75 && !s->white_balance, "exposure given");
-    OK(s->model_count == 2 && !strcmp(s->models[1].name, "tall box") && file_exists(s->models[1].file), "models by name");
+    OK(s->model_count == 2 && !strcmp(s->models[1].name, "tall box") && file_exists(s->models[1].files[DETAIL_NEAR]), "models by name");
     OK(s->models[0].options.length_m == 4.2 && s->models[0].options.unit_m == 0 && s->models[1].options.height_m == 1.8, "model sizes");
     OK(s->models[0].options.axes_given && s->models[0].options.up == AXIS_NEG_Y && s->models[0].options.front == AXIS_POS_Z &&
            s->models[1].options.up == AXIS_POS_Y && s->models[1].options.front == AXIS_NEG_X, "model axes, with and without sign");
@@ -159,7 +168,7 @@ static void a_full_scene_is_read_back(void)
     const struct scene_entity *e = s->entities;
     OK(s->entity_count == 3 && e[0].class_ == CLASS_FIRE_TRUCK && e[1].class_ == CLASS_PERSON && e[2].class_ == CLASS_RIDER,
        "an entity's class goes before its model's");
-    OK(e[0].model_index == 0 && e[2].model_index == 1, "models of entities");
+    OK(e[0].choice.models[0] == 0 && e[2].choice.models[0] == 1, "models of entities");
     OK(e[0].place == PLACE_WORLD && e[0].at[0] == 1.5 && e[0].at[1] == -2, "a place in the world");
     OK(e[1].place == PLACE_GEODETIC && e[1].at[0] == 40.447 && e[1].at[1] == -79.949, "a place on the earth, in degrees");
     OK(e[2].place == PLACE_PIXEL && e[2].at[0] == 2000 && e[2].at[1] == 750.5, "a place in the picture, up to its edge");
@@ -224,7 +233,7 @@ static void a_flight_is_read(void)
     NEAR(p.x, 9.3, 1e-12, "the mesh is scaled and moved");
     NEAR(p.z, 3 - 8.3, 1e-12, "and turned");
     OK(s->path_count == 1 && s->paths[0].shot == 1 && s->paths[0].use == ROAD_VEHICLES, "a path by pixels of a shot");
-    OK(s->vehicles.count == 3 && s->vehicles.weights[0] == 2.5 && s->vehicles.colors[0][0] == 1 && s->people.count == 0, "traffic");
+    OK(s->vehicles.count == 3 && s->vehicles.choice.weights[0] == 2.5 && s->vehicles.colors[0][0] == 1 && s->people.count == 0, "traffic");
     OK(s->exposure_of_roads && s->palette == PALETTE_UAVID, "exposure and palette");
     scene_destroy(s);
 }
@@ -388,7 +397,7 @@ static void a_cut_off_file_is_refused_in_words(void)
         struct scene *scene = NULL;
         err = ERROR_NONE;
         if (!file_write(cut, data, n, &err)) break;
-        if (scene_read(&scene, cut, &err)) {
+        if (scene_read(&scene, cut, NULL, &err)) {
             scene_destroy(scene);
             continue;
         }
@@ -486,7 +495,7 @@ static void a_file_that_is_not_there(void)
 {
     struct error err = ERROR_NONE;
     struct scene *scene = NULL;
-    OK(!scene_read(&scene, "no-such/scene.yaml", &err) && !scene, "a scene file that is not there is refused");
+    OK(!scene_read(&scene, "no-such/scene.yaml", NULL, &err) && !scene, "a scene file that is not there is refused");
     OK(!strcmp(err.file, "no-such/scene.yaml") && strstr(err.text, "No such file"), "with its path and the reason");
 }
 

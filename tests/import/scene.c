@@ -42,7 +42,7 @@ static struct scene *read_scene(const char *text)
     struct scene *scene = NULL;
     scratch_text("scene.yaml", text);
     char *path = string_format("%s/scene.yaml", scratch);
-    if (!scene_read(&scene, path, &err)) printf("# %s:%d:%d: %s\n", err.file, err.line, err.column, err.text);
+    if (!scene_read(&scene, path, NULL, &err)) printf("# %s:%d:%d: %s\n", err.file, err.line, err.column, err.text);
     free(path);
     return scene;
 }

@@ -1,8 +1,7 @@
 /* JSON that other tools wrote: a walk's reading half, with names of files and what may be left out. */
-#ifndef STAFFAGE_IMPORT_JSON_FILE_H
-#define STAFFAGE_IMPORT_JSON_FILE_H
+#ifndef STAFFAGE_LIB_JSON_FILE_H
+#define STAFFAGE_LIB_JSON_FILE_H
 
-#include "lib/camera.h"
 #include "lib/error.h"
 #include "lib/json_walk.h"
 
