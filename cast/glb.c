@@ -93,7 +93,7 @@ static void add_vertices(struct out *out, const struct vertex *list, size_t coun
     for (size_t i = 0; i < count; i++) {
         struct vec3 p = surface->points[list[i].point], body = vec3_scale(p, 1 / skeleton->scale);
         body.z += skeleton->ground_z;
-        struct binding b = bind_point(skeleton, list[i].part, body);
+        struct binding b = walker_bind_point(skeleton, list[i].part, body);
         to_file(position[i], p);
         to_file(normal[i], vec3_unit(surface->normals[list[i].normal]));
         for (int k = 0; k < 4; k++) {
@@ -148,15 +148,15 @@ static void write_nodes(FILE *f, const struct skeleton *skeleton, const char *na
 {
     fprintf(f, "{\"name\":\"%s\",\"mesh\":0,\"skin\":0}", name);
     for (int j = 0; j < JOINT_COUNT; j++) {
-        int parent = joint_parent(j), children = 0;
+        int parent = walker_joint_parent(j), children = 0;
         struct vec3 at = skeleton->at[j];
         if (parent < 0) at.z -= skeleton->ground_z;
         else at = vec3_sub(at, skeleton->at[parent]);
         float t[3];
         to_file(t, vec3_scale(at, skeleton->scale));
-        fprintf(f, ",{\"name\":\"%s\",\"translation\":[%.9g,%.9g,%.9g]", joint_name[j], (double)t[0], (double)t[1], (double)t[2]);
+        fprintf(f, ",{\"name\":\"%s\",\"translation\":[%.9g,%.9g,%.9g]", walker_joint_name[j], (double)t[0], (double)t[1], (double)t[2]);
         for (int c = 0; c < JOINT_COUNT; c++)
-            if (joint_parent(c) == j) fprintf(f, "%s%d", children++ ? "," : ",\"children\":[", 1 + c);
+            if (walker_joint_parent(c) == j) fprintf(f, "%s%d", children++ ? "," : ",\"children\":[", 1 + c);
         fputs(children ? "]}" : "}", f);
     }
 }

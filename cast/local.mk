@@ -1,17 +1,30 @@
 # cast: the program that makes the models which come with Staffage, and the models, made in the folder models/.
 noinst_PROGRAMS += staffage-cast
-staffage_cast_CPPFLAGS = $(AM_CPPFLAGS) $(JANSSON_CFLAGS)
+staffage_cast_CPPFLAGS = $(AM_CPPFLAGS) $(JANSSON_CFLAGS) $(ZLIB_CFLAGS)
 staffage_cast_SOURCES = \
+  %D%/body.c %D%/body.h \
+  %D%/clothes.c \
+  %D%/decimate.c \
+  %D%/feet.c %D%/feet.h \
+  %D%/field.c %D%/field.h \
+  %D%/figure.c %D%/figure.h \
   %D%/glb.c %D%/glb.h \
+  %D%/head.c \
+  %D%/hull.h \
   %D%/listing.c %D%/listing.h \
   %D%/main.c \
   %D%/mesh.c %D%/mesh.h \
+  %D%/motion.c %D%/motion.h \
   %D%/obj.c \
-  %D%/person.c \
+  %D%/people.c \
+  %D%/person.c %D%/person.h \
   %D%/sedan.c \
   %D%/skeleton.c %D%/skeleton.h \
+  %D%/skin_glb.c %D%/skin_glb.h \
+  %D%/surface_net.c \
+  %D%/texture.c %D%/texture.h \
   %D%/walk.c %D%/walk.h
-staffage_cast_LDADD = lib/libstaffage.a $(JANSSON_LIBS) -lm
+staffage_cast_LDADD = lib/libstaffage.a $(JANSSON_LIBS) $(ZLIB_LIBS) -lm
 EXTRA_DIST += %D%/README.md
 
 # What it makes is listed in the catalogue, and made in one run; make install takes what the run left.

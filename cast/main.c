@@ -1,5 +1,6 @@
 /* Writes our own models: `staffage-cast FOLDER` makes OBJ and MTL files there, in metres, z up,
  * front +x, and people that walk as GLB files. The same numbers give the same bytes on every run. */
+#include "cast/figure.h"
 #include "cast/glb.h"
 #include "cast/listing.h"
 #include "cast/mesh.h"
@@ -81,6 +82,7 @@ int main(int argc, char **argv)
         good = list_model(&listing, &model, walkers[i].name, true, &err) &&
                write_walker(&model, &skeleton, &walk, argv[1], walkers[i].name, &walkers[i].palette, &err);
     }
+    good = good && write_people(&listing, argv[1], &err);
     good = good && listing_write(&listing, argv[1], &err);
     if (!good) error_print(&err, "staffage-cast");
     return error_exit_status(&err);

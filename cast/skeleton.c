@@ -1,12 +1,12 @@
 #include "cast/skeleton.h"
 
-const char *const joint_name[JOINT_COUNT] = {
+const char *const walker_joint_name[JOINT_COUNT] = {
     "hips", "spine", "chest", "head",
     "left upper arm", "left forearm", "left hand", "left thigh", "left shin", "left foot", "left toes",
     "right upper arm", "right forearm", "right hand", "right thigh", "right shin", "right foot", "right toes"
 };
 
-int joint_parent(int joint)
+int walker_joint_parent(int joint)
 {
     if (joint < LIMBS) return joint - 1;
     int limb = (joint - LIMBS) % LIMB_COUNT;
@@ -54,7 +54,7 @@ static void bind_legs(double w[JOINT_COUNT], const struct skeleton *s, struct ve
     }
 }
 
-struct binding bind_point(const struct skeleton *s, enum part part, struct vec3 p)
+struct binding walker_bind_point(const struct skeleton *s, enum part part, struct vec3 p)
 {
     double w[JOINT_COUNT] = { 0 }, t;
     int side = p.y < 0;

@@ -18,10 +18,10 @@ struct skeleton {
     double stride;           /* of a walk's loop, two steps */
 };
 
-extern const char *const joint_name[JOINT_COUNT];
-int joint_parent(int joint); /* -1 for HIPS; less than the joint */
+extern const char *const walker_joint_name[JOINT_COUNT];
+int walker_joint_parent(int joint); /* -1 for HIPS; less than the joint */
 
 struct binding { int joint[4]; double weight[4]; }; /* weights sum to 1 */
-struct binding bind_point(const struct skeleton *skeleton, enum part part, struct vec3 p);
+struct binding walker_bind_point(const struct skeleton *skeleton, enum part part, struct vec3 p);
 
 #endif

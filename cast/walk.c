@@ -54,7 +54,7 @@ static struct sole find_sole(const struct skeleton *skeleton, const struct model
         struct vec3 p = vec3_scale(t->p[i % 3], 1 / skeleton->scale);
         p.z += skeleton->ground_z;
         if (t->part != SHOE || p.y < 0) continue;
-        struct binding b = bind_point(skeleton, SHOE, p);
+        struct binding b = walker_bind_point(skeleton, SHOE, p);
         double *to = sole.p[sole.count++];
         to[0] = p.x - ankle.x, to[1] = p.z - ankle.z, to[2] = 0;
         for (int k = 0; k < 4; k++)
@@ -205,7 +205,7 @@ static void write_key(struct walk *walk, const struct pose_now *pose, int key)
 {
     walk->hips[key] = pose->hips;
     for (int j = 0; j < JOINT_COUNT; j++) {
-        int parent = joint_parent(j);
+        int parent = walker_joint_parent(j);
         struct mat3 local = parent < 0 ? pose->turn[j] : mat3_multiply(mat3_transpose(pose->turn[parent]), pose->turn[j]);
         walk->turn[j][key] = quat_from_mat3(local);
     }
