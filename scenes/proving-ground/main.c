@@ -1,0 +1,214 @@
+/* proving-ground: what `prove` needs done between the renders. */
+#include "compare.h"
+#include "develop.h"
+#include "pinhole.h"
+#include "reconstruct.h"
+#include "write_pov.h"
+#include "write_scene.h"
+
+#include "lib/file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char usage[] =
+    "usage: proving-ground cases\n"
+    "       proving-ground scene CASE known|auto|light METHOD MODELS FILE\n"
+    "       proving-ground pov CASE SHOT KIND LIGHT FILE    prints width, height, window, extension\n"
+    "       proving-ground develop CASE SHOT FOLDER         radiance to photograph and truth\n"
+    "       proving-ground reconstruct CASE FOLDER\n"
+    "       proving-ground compare CASE SHOT FOLDER OUT METHOD\n"
+    "       proving-ground table FILE ...\n"
+    "PROVING_WIDTH (960) and PROVING_FINENESS (2, pinhole pixels to one of the photograph) set the size.\n";
+
+static double setting(const char *name, double otherwise)
+{
+    const char *value = getenv(name);
+    return value && *value ? strtod(value, NULL) : otherwise;
+}
+
+static struct camera camera_of(const struct proving_case *c)
+{
+    int width = (int)setting("PROVING_WIDTH", c->camera.width_px);
+    return camera_scaled(&c->camera, width, width * c->camera.height_px / c->camera.width_px);
+}
+static double fineness(void) { return setting("PROVING_FINENESS", 2); }
+
+static bool find_case(const struct proving_case **c, const char *name, struct error *err)
+{
+    *c = proving_case(name);
+    return *c || error_set(err, ERR_INPUT, "no case is called \"%s\"", name);
+}
+
+static int list_cases(void)
+{
+    for (size_t i = 0; i < proving_case_count; i++)
+        printf("%s %zu %zu %d\n", proving_cases[i].name, proving_cases[i].shot_count, proving_entity_count(&proving_cases[i]),
+               proving_cases[i].has_mesh);
+    return 0;
+}
+
+/* Out: *has_sun */
+static bool read_sun(struct vec3 *sun, bool *has_sun, const char *light, struct error *err)
+{
+    char *text;
+    size_t size;
+    if (!file_read(&text, &size, light, err)) return false;
+    const char *at = strstr(text, "Sun_Direction = <");
+    *has_sun = at && sscanf(at, "Sun_Direction = <%lf,%lf,%lf>", &sun->x, &sun->y, &sun->z) == 3;
+    free(text);
+    return true;
+}
+
+static bool pov(char **a, struct error *err)
+{
+    const struct proving_case *c;
+    struct vec3 sun;
+    bool has_sun;
+    if (!find_case(&c, a[0], err) || !read_sun(&sun, &has_sun, a[3], err)) return false;
+    struct camera camera = camera_of(c);
+    struct pov_job job;
+    if (!write_pov(&job, a[4], a[2], c, strtoul(a[1], NULL, 10), &camera, fineness(), has_sun ? &sun : NULL, err)) return false;
+    printf("%d %d %d %d %d %d %s\n", job.width_px, job.height_px, job.window_px.x0, job.window_px.y0, job.window_px.x1,
+           job.window_px.y1, job.is_png ? "png" : "exr");
+    return true;
+}
+
+static bool read_part(struct image *image, const char *folder, const char *shot, const char *name, struct error *err)
+{
+    char *path = string_format("%s/%s-%s", folder, shot, name);
+    bool ok = path ? image_read(image, path, err) : error_set(err, ERR_MEMORY, "no memory for a path");
+    free(path);
+    return ok;
+}
+
+static bool write_part(const char *folder, const char *name, const char *shot, const char *extension, const struct image *image,
+                       struct error *err)
+{
+    char *path = string_format("%s/%s-%s%s", folder, name, shot, extension);
+    bool ok = path ? image_write(path, image, err) : error_set(err, ERR_MEMORY, "no memory for a path");
+    free(path);
+    return ok;
+}
+
+/* Outside the window of the truth the street is as it was. */
+static void fill_outside(struct image *truth, const struct image *without, struct rect w)
+{
+    size_t size = image_pixel_size(truth), row = size * (size_t)truth->width_px;
+    for (int y = 0; y < truth->height_px; y++)
+        for (int x = 0; x < truth->width_px; x++)
+            if (x < w.x0 || y < w.y0 || x >= w.x1 || y >= w.y1)
+                memcpy((char *)truth->data + (size_t)y * row + (size_t)x * size, (char *)without->data + (size_t)y * row + (size_t)x * size, size);
+}
+
+static bool read_window(struct rect *w, const char *folder, const char *shot, const char *name, struct error *err)
+{
+    char *path = string_format("%s/%s-%s", folder, shot, name), *text = NULL;
+    size_t size;
+    bool ok = path && file_read(&text, &size, path, err);
+    if (ok && sscanf(text, "%*d %*d %d %d %d %d", &w->x0, &w->y0, &w->x1, &w->y1) != 4)
+        ok = error_at(err, ERR_INPUT, path, 0, 0, "holds no window");
+    free(path);
+    free(text);
+    return ok;
+}
+
+static bool develop(char **a, struct error *err)
+{
+    const struct proving_case *c;
+    if (!find_case(&c, a[0], err)) return false;
+    const char *shot = a[1], *folder = a[2];
+    struct camera camera = camera_of(c);
+    struct pinhole pinhole;
+    struct image radiance[2] = { 0 }, range[2] = { 0 }, linear[2] = { 0 }, developed[2] = { 0 };
+    struct rect window;
+    uint64_t key = hash_bytes(hash_bytes(FILE_HASH_SEED, c->name, strlen(c->name)), shot, strlen(shot));
+    bool ok = pinhole_cover(&pinhole, &camera, fineness(), err) && read_window(&window, folder, shot, "truth.job", err) &&
+              read_part(&radiance[0], folder, shot, "photograph.exr", err) && read_part(&radiance[1], folder, shot, "truth.exr", err) &&
+              (c->visibility_m <= 0 || (read_part(&range[0], folder, shot, "range.png", err) &&
+                                        read_part(&range[1], folder, shot, "truth-range.png", err)));
+    if (ok) {
+        fill_outside(&radiance[1], &radiance[0], window);
+        if (range[0].data) fill_outside(&range[1], &range[0], window);
+    }
+    for (int i = 0; ok && i < 2; i++) {
+        const char *name = i ? "truth" : "photograph";
+        ok = develop_light(&linear[i], &radiance[i], &range[i], &pinhole, &camera, c, err) &&
+             develop_sensor(&developed[i], &linear[i], key, err) && write_part(folder, name, shot, ".exr", &linear[i], err) &&
+             write_part(folder, name, shot, ".jpg", &developed[i], err);
+    }
+    for (int i = 0; i < 2; i++) {
+        image_release(&radiance[i]);
+        image_release(&range[i]);
+        image_release(&linear[i]);
+        image_release(&developed[i]);
+    }
+    return ok;
+}
+
+static bool reconstruct_place(char **a, struct error *err)
+{
+    const struct proving_case *c;
+    if (!find_case(&c, a[0], err)) return false;
+    struct camera camera = camera_of(c);
+    struct image heights = { 0 }, *photographs = calloc(c->shot_count, sizeof *photographs);
+    bool ok = photographs && read_part(&heights, a[1], "0", "heights.png", err);
+    for (size_t i = 0; ok && i < c->shot_count; i++) {
+        char *path = string_format("%s/photograph-%zu.jpg", a[1], i);
+        ok = path && image_read(&photographs[i], path, err);
+        free(path);
+    }
+    char *path = string_format("%s/place.ply", a[1]);
+    ok = ok && path && reconstruct(path, &heights, photographs, c, &camera, err);
+    free(path);
+    for (size_t i = 0; photographs && i < c->shot_count; i++) image_release(&photographs[i]);
+    free(photographs);
+    image_release(&heights);
+    return ok;
+}
+
+static bool compare_shot(char **a, struct error *err)
+{
+    const struct proving_case *c;
+    if (!find_case(&c, a[0], err)) return false;
+    struct camera camera = camera_of(c);
+    struct comparison_files files = { .folder = a[2], .out = a[3], .shot = strtoul(a[1], NULL, 10) };
+    struct comparison result;
+    if (!compare(&result, &files, c, &camera, err)) return false;
+    comparison_print(stdout, c->name, files.shot, a[4], &result);
+    return true;
+}
+
+static bool scene(char **a, struct error *err)
+{
+    const struct proving_case *c;
+    if (!find_case(&c, a[0], err)) return false;
+    struct camera camera = camera_of(c);
+    return write_scene(a[4], c, a[1], a[2], &camera, a[3], err);
+}
+
+static const struct command { const char *name; int arguments; bool (*run)(char **, struct error *); } commands[] = {
+    { "scene", 5, scene }, { "pov", 5, pov }, { "develop", 3, develop }, { "reconstruct", 2, reconstruct_place },
+    { "compare", 5, compare_shot },
+};
+
+int main(int argc, char **argv)
+{
+    if (argc == 2 && !strcmp(argv[1], "cases")) return list_cases();
+    if (argc > 2 && !strcmp(argv[1], "table")) {
+        struct error err = ERROR_NONE;
+        if (comparison_table(stdout, (const char *const *)argv + 2, (size_t)argc - 2, &err)) return 0;
+        error_print(&err, "proving-ground");
+        return error_exit_status(&err);
+    }
+    for (size_t i = 0; argc > 1 && i < sizeof commands / sizeof *commands; i++) {
+        if (strcmp(argv[1], commands[i].name) || argc - 2 != commands[i].arguments) continue;
+        struct error err = ERROR_NONE;
+        if (commands[i].run(argv + 2, &err)) return 0;
+        error_print(&err, "proving-ground");
+        return error_exit_status(&err);
+    }
+    fputs(usage, stderr);
+    return 2;
+}

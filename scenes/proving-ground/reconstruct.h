@@ -1,0 +1,17 @@
+/* The place as a reconstruction would have it: the street's heights in cells, off by centimetres in smooth waves, without
+ * what is thin, in the colours of the photographs. */
+#ifndef STAFFAGE_PROVING_RECONSTRUCT_H
+#define STAFFAGE_PROVING_RECONSTRUCT_H
+
+#include "cases.h"
+#include "lib/image.h"
+
+#define PROVING_MESH_ERROR_M 0.02   /* standard deviation of the waves, along z */
+#define PROVING_MESH_WAVE_M 1.6     /* their length */
+
+/* Write a PLY.
+ * In: heights (U16), of write_pov's picture; photographs (c->shot_count) U8 3, of camera */
+bool reconstruct(const char *path, const struct image *heights, const struct image *photographs, const struct proving_case *c,
+                 const struct camera *camera, struct error *err);
+
+#endif

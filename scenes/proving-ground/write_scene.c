@@ -1,0 +1,129 @@
+#include "write_scene.h"
+
+#include "lib/file.h"
+#include "lib/image.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void put_camera(FILE *f, const struct camera *camera)
+{
+    fprintf(f, "{model: %s, size_px: [%d, %d], params: [", camera_model_name(camera->model), camera->width_px, camera->height_px);
+    for (int i = 0; i < camera_model_param_count(camera->model); i++) fprintf(f, "%s%.12g", i ? ", " : "", camera->params[i]);
+    fputs("]", f);
+}
+
+static void put_pose(FILE *f, const struct proving_shot *s)
+{
+    fprintf(f, "pose: {look_at: {position_m: [%g, %g, %g], target_m: [%g, %g, %g], up: [%g, %g, %g]}}}", s->eye_m.x, s->eye_m.y,
+            s->eye_m.z, s->target_m.x, s->target_m.y, s->target_m.z, s->up.x, s->up.y, s->up.z);
+}
+
+/* The lamp post as its user would draw it: both sides from the ground up, and where it stands. */
+static bool put_occluder(FILE *f, const struct proving_case *c, const struct camera *camera, struct error *err)
+{
+    enum { STEPS = 12 };
+    struct pose camera_from_world = pose_inverse(proving_shot_pose(&c->shots[0]));
+    struct vec3 foot = proving_post_m, away = vec3_sub(foot, c->shots[0].eye_m);
+    struct vec3 aside = vec3_scale(vec3_unit(vec3(away.y, -away.x, 0)), PROVING_POST_RADIUS_M);
+    struct vec2 q;
+    fputs("occluders:\n  - name: lamp post\n    polygon_px: [", f);
+    for (int i = 0; i < 2 * STEPS; i++) {
+        int step = i < STEPS ? i : 2 * STEPS - 1 - i;
+        struct vec3 p = vec3(foot.x, foot.y, foot.z + step * (PROVING_POST_HEIGHT_M - foot.z) / (STEPS - 1));
+        p = i < STEPS ? vec3_add(p, aside) : vec3_sub(p, aside);
+        if (!camera_project(camera, &q, pose_apply(camera_from_world, p), err)) return false;
+        fprintf(f, "%s[%.2f, %.2f]", i ? ", " : "", q.x, q.y);
+    }
+    foot.z = 0;
+    if (!camera_project(camera, &q, pose_apply(camera_from_world, foot), err)) return false;
+    fprintf(f, "]\n    ground_px: [%.2f, %.2f]\n", q.x, q.y);
+    return true;
+}
+
+/* The street's middle, where the tool lays a smooth road over the reconstruction. */
+#define ROAD "paths: [{name: street, use: vehicles, width_m: 7, points_m: [[-40, 0], [40, 0]]}]\n"
+
+static bool put_photographs(FILE *f, const struct proving_case *c, const struct camera *camera, bool stand_in, struct error *err)
+{
+    if (stand_in) {
+        fputs("photographs: {files: [grey.png]}\nexposure: {value: 1}\nground: {height_m: 0, albedo: 0.11}\n"
+              "camera: {model: PINHOLE, size_px: [1000, 1000], horizontal_fov_deg: 70, pose: {look_at: "
+              "{position_m: [0, 0, 60], target_m: [0, 0, 0], up: [0, 1, 0]}}}\n", f);
+        return true;
+    }
+    if (!c->has_mesh) {
+        double scale = (double)camera->width_px / c->camera.width_px;
+        fputs("photographs: {files: [photograph-0.jpg]}\ncamera: ", f);
+        put_camera(f, camera);
+        fputs(", ", f);
+        put_pose(f, &c->shots[0]);
+        fprintf(f, "\nground: {height_m: 0, albedo: %g}\nexposure: {patch_px: [%.0f, %.0f, %.0f, %.0f]}\n", PROVING_ALBEDO,
+                c->patch_px[0] * scale, c->patch_px[1] * scale, c->patch_px[2] * scale, c->patch_px[3] * scale);
+        return put_occluder(f, c, camera, err);
+    }
+    fputs("cameras:\n  drone: ", f);
+    put_camera(f, camera);
+    fputs("}\nshots:\n", f);
+    for (size_t i = 0; i < c->shot_count; i++) {
+        fprintf(f, "  - {photograph: photograph-%zu.jpg, camera: drone, time: %s, ", i, c->time);
+        put_pose(f, &c->shots[i]);
+        fputs("\n", f);
+    }
+    fprintf(f, "static: {mesh: place.ply}\nground: {albedo: %g}\nexposure: {roads: true}\n" ROAD, PROVING_ALBEDO);
+    return true;
+}
+
+static void put_cast(FILE *f, const struct proving_case *c, const char *models)
+{
+    fputs("models:\n", f);
+    for (size_t i = 0; i < proving_entity_count(c); i++) {
+        const struct proving_entity *e = &c->entities[i];
+        bool seen = false;
+        for (size_t k = 0; k < i; k++) seen |= !strcmp(e->model, c->entities[k].model);
+        if (!seen) fprintf(f, "  %s: {file: \"%s/%s.obj\", class: %s, unit_m: 1, up: +z, front: +x}\n", e->model, models, e->model, e->class_);
+    }
+    fputs("entities:\n", f);
+    for (size_t i = 0; i < proving_entity_count(c); i++) {
+        const struct proving_entity *e = &c->entities[i];
+        fprintf(f, "  - {name: %s, model: %s, at: {world_m: [%g, %g]}, heading_deg: %g", e->name, e->model, e->position_m.x,
+                e->position_m.y, e->heading_deg);
+        if (e->color) fprintf(f, ", color: \"%s\"", e->color);
+        fputs("}\n", f);
+    }
+}
+
+/* Beside the scene file. */
+static bool write_grey(const char *path, struct error *err)
+{
+    struct image grey;
+    char *file = path_beside(path, "grey.png");
+    bool ok = file && image_init(&grey, 1000, 1000, 3, PIXEL_U8, err);
+    if (ok) {
+        memset(grey.data, 128, image_size(&grey));
+        ok = file_exists(file) || image_write(file, &grey, err);
+        image_release(&grey);
+    }
+    free(file);
+    return ok;
+}
+
+bool write_scene(const char *path, const struct proving_case *c, const char *variant, const char *method,
+                 const struct camera *camera, const char *models, struct error *err)
+{
+    FILE *f = fopen(path, "w");
+    if (!f) return error_at(err, ERR_INPUT, path, 0, 0, "cannot be written");
+    bool stand_in = !strcmp(variant, "light");
+    fputs("staffage: 1\nplace: {latitude_deg: 48.1, longitude_deg: 11.5, height_m: 500}\n", f);
+    if (stand_in || !c->has_mesh) fprintf(f, "time: %s\n", c->time);
+    fprintf(f, "light: %s\n", !strcmp(variant, "auto") ? "auto" : c->light);
+    bool ok = (!stand_in || write_grey(path, err)) && put_photographs(f, c, camera, stand_in, err);
+    if (!stand_in) {
+        fprintf(f, "lens: {softness_px: %g}\ntransfer: {method: %s}\n", PROVING_SOFTNESS_PX * camera->width_px / c->camera.width_px, method);
+        if (c->visibility_m > 0)
+            fprintf(f, "weather: {visibility_m: %g, haze: [%g, %g, %g]}\n", c->visibility_m, c->haze[0], c->haze[1], c->haze[2]);
+    }
+    put_cast(f, c, models);
+    return (fclose(f) == 0 || error_at(err, ERR_INPUT, path, 0, 0, "cannot be written")) && ok;
+}
