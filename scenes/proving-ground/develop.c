@@ -49,11 +49,12 @@ static bool distort(struct image *out, const struct image *in, const struct pinh
     return true;
 }
 
-/* The lens's softness and the area of a pixel, as one Gaussian; what bilinear sampling has softened already is left out. */
+/* The lens's softness and the area of a pixel, as one Gaussian; what the area of the pinhole's pixels (1/12) and sampling
+ * between them (1/6) have softened already is left out. */
 enum { TAPS = 12 };
 static void softness_kernel(float weight[TAPS], double fineness, double scale)
 {
-    double soft = PROVING_SOFTNESS_PX * scale, variance = soft * soft + 1.0 / 12 - 1.0 / (6 * fineness * fineness), sum = 0, w[TAPS];
+    double soft = PROVING_SOFTNESS_PX * scale, variance = soft * soft + 1.0 / 12 - 0.25 / (fineness * fineness), sum = 0, w[TAPS];
     if (variance < 0.04) variance = 0.04;
     for (int i = 0; i < TAPS; i++) {
         double at = (i + 0.5 - TAPS / 2.0) / 2;

@@ -1,6 +1,7 @@
 /* proving-ground: what `prove` needs done between the renders. */
 #include "compare.h"
 #include "develop.h"
+#include "picture.h"
 #include "pinhole.h"
 #include "reconstruct.h"
 #include "write_pov.h"
@@ -19,8 +20,9 @@ static const char usage[] =
     "       proving-ground develop CASE SHOT FOLDER         radiance to photograph and truth\n"
     "       proving-ground reconstruct CASE FOLDER\n"
     "       proving-ground compare CASE SHOT FOLDER OUT METHOD\n"
+    "       proving-ground picture FOLDER SHOT METHOD X0,Y0,X1,Y1 FILE    result, truth, difference\n"
     "       proving-ground table FILE ...\n"
-    "PROVING_WIDTH (960) and PROVING_FINENESS (2, pinhole pixels to one of the photograph) set the size.\n";
+    "PROVING_WIDTH (960) and PROVING_FINENESS (1.4, pinhole pixels to one of the photograph) set the size.\n";
 
 static double setting(const char *name, double otherwise)
 {
@@ -33,7 +35,7 @@ static struct camera camera_of(const struct proving_case *c)
     int width = (int)setting("PROVING_WIDTH", c->camera.width_px);
     return camera_scaled(&c->camera, width, width * c->camera.height_px / c->camera.width_px);
 }
-static double fineness(void) { return setting("PROVING_FINENESS", 2); }
+static double fineness(void) { return setting("PROVING_FINENESS", 1.4); }
 
 static bool find_case(const struct proving_case **c, const char *name, struct error *err)
 {
@@ -180,6 +182,23 @@ static bool compare_shot(char **a, struct error *err)
     return true;
 }
 
+static bool picture(char **a, struct error *err)
+{
+    struct image result = { 0 }, truth = { 0 }, beside = { 0 };
+    struct rect part;
+    char *ours = string_format("%s/%s-%s.png", a[0], a[2], a[1]), *other = string_format("%s/truth-%s.jpg", a[0], a[1]);
+    bool ok = (sscanf(a[3], "%d,%d,%d,%d", &part.x0, &part.y0, &part.x1, &part.y1) == 4 ||
+               error_set(err, ERR_INPUT, "\"%s\" is no part of a picture: X0,Y0,X1,Y1", a[3])) &&
+              ours && other && image_read(&result, ours, err) && image_read(&truth, other, err) &&
+              picture_beside(&beside, &result, &truth, part, err) && image_write(a[4], &beside, err);
+    image_release(&result);
+    image_release(&truth);
+    image_release(&beside);
+    free(ours);
+    free(other);
+    return ok;
+}
+
 static bool scene(char **a, struct error *err)
 {
     const struct proving_case *c;
@@ -190,7 +209,7 @@ static bool scene(char **a, struct error *err)
 
 static const struct command { const char *name; int arguments; bool (*run)(char **, struct error *); } commands[] = {
     { "scene", 5, scene }, { "pov", 5, pov }, { "develop", 3, develop }, { "reconstruct", 2, reconstruct_place },
-    { "compare", 5, compare_shot },
+    { "compare", 5, compare_shot }, { "picture", 5, picture },
 };
 
 int main(int argc, char **argv)

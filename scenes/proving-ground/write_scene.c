@@ -120,7 +120,7 @@ bool write_scene(const char *path, const struct proving_case *c, const char *var
     fprintf(f, "light: %s\n", !strcmp(variant, "auto") ? "auto" : c->light);
     bool ok = (!stand_in || write_grey(path, err)) && put_photographs(f, c, camera, stand_in, err);
     if (!stand_in) {
-        fprintf(f, "lens: {softness_px: %g}\ntransfer: {method: %s}\n", PROVING_SOFTNESS_PX * camera->width_px / c->camera.width_px, method);
+        fprintf(f, "transfer: {method: %s}\n", method);
         if (c->visibility_m > 0)
             fprintf(f, "weather: {visibility_m: %g, haze: [%g, %g, %g]}\n", c->visibility_m, c->haze[0], c->haze[1], c->haze[2]);
     }
