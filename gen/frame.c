@@ -127,8 +127,9 @@ static int blur_reach_px(const struct frame *f)
 {
     const struct scene *s = f->scene;
     double softness_px = s->softness_auto && f->photograph[0] ? MANIFEST_SOFTNESS_AUTO_MAX_PX : s->softness_px;
-    if (softness_px <= 0 && s->defocus_px <= 0 && !f->motion.data) return 0;
-    double reach = ceil(3 * softness_px) + 2, most = 0;
+    bool sharpened = s->sharpening > 0 || (s->sharpening_auto && f->photograph[0]);
+    if (softness_px <= 0 && s->defocus_px <= 0 && !f->motion.data && !sharpened) return 0;
+    double reach = ceil(3 * softness_px) + 2 + (sharpened ? MANIFEST_SHARPENING_REACH_PX : 0), most = 0;
     for (size_t i = 0; s->defocus_px > 0 && i < f->moment.n; i++) {
         struct vec3 way = vec3_sub(f->moment.entities[i].world_from_entity.translation, f->shot->world_from_camera.translation);
         most = fmax(most, s->defocus_px * fabs(1 - s->focus_m / fmax(vec3_norm(way), 0.1)) / 2);

@@ -165,6 +165,7 @@ static bool walk_weather(struct walk *walk, struct manifest *m)
 static bool walk_hand(struct walk *walk, struct manifest *m)
 {
     return walk_bool(walk, "softness_auto", &m->softness_auto) && walk_real(walk, "softness_px", &m->softness_px, 0, 100) &&
+           walk_bool(walk, "sharpening_auto", &m->sharpening_auto) && walk_real(walk, "sharpening", &m->sharpening, 0, 3) &&
            walk_bool(walk, "grain_auto", &m->grain_auto) && walk_real(walk, "grain", &m->grain, 0, 100) &&
            walk_bool(walk, "vignetting_auto", &m->vignetting_auto) && walk_real(walk, "vignetting", &m->vignetting, 0, 0.95) &&
            walk_bool(walk, "highlights_auto", &m->highlights_auto) && walk_real(walk, "highlights", &m->highlights, 0, 1) &&

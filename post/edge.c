@@ -10,14 +10,20 @@
 #define NARROW_PX 4.0       /* half the way across it; other things are near */
 #define WIDE_PX 8.0         /* for what is blurred more than that shows */
 #define REACH_PX 9
-#define CONTRAST_MIN 0.04   /* between the two sides, linear */
+#define CONTRAST_MIN 0.07   /* between the two sides, 1 is white */
 #define MISFIT_MAX 0.07     /* root of the mean square, in units of the contrast */
-#define PARAMETERS 5
+#define STRAIGHT_MIN 0.8    /* 1: light changes in one direction only */
+#define TELLING_PX 0.65     /* edges that are wider do not show whether they were sharpened */
+#define SHARPENING_SPREAD 0.5 /* what is known of it beforehand: a standard deviation, */
+#define NOISE 0.02          /* and that of a pixel, in units of the contrast */
+#define TELLING_MIN 12      /* edges, to tell how much they were sharpened */
+#define PARAMETERS 6
 
 struct candidate { float strength; int x, y; };
 
-/* A step seen through a Gaussian: low + step * Phi((x cos + y sin - at) / sigma). */
-struct step { double low, step, at, angle, sigma; };
+/* A step seen through a Gaussian, and sharpened: with t = x cos + y sin - at,
+ * low + step * (Phi(t / sigma) + sharpening * (Phi(t / sigma) - Phi(t / sqrt(sigma^2 + EDGE_SHARPENING_PX^2)))). */
+struct step { double low, step, at, angle, sigma, sharpening; };
 
 /* Sums of the normal equations, by Gauss and Newton. */
 struct normal { double a[PARAMETERS][PARAMETERS + 1], misfit; int points; };
@@ -47,18 +53,27 @@ static bool solve(double x[PARAMETERS], struct normal *n)
     return true;
 }
 
-static void compare_with(struct normal *n, const struct image *light, const struct candidate *c, const struct step *s, double angle, double across_px)
+static double bell(double q)
+{
+    return exp(-q * q / 2) / sqrt(2 * M_PI);
+}
+
+/* In: find_sharpening: else it is taken as it is */
+static void compare_with(struct normal *n, const struct image *light, const struct candidate *c, const struct step *s, double angle,
+                         double across_px, bool find_sharpening)
 {
     *n = (struct normal){ .points = 0 };
-    double across_x = cos(s->angle), across_y = sin(s->angle);
+    double across_x = cos(s->angle), across_y = sin(s->angle), wide = hypot(s->sigma, EDGE_SHARPENING_PX);
     double pick_x = cos(angle), pick_y = sin(angle); /* the same points, however the step is turned */
     for (int dy = -REACH_PX; dy <= REACH_PX; dy++)
         for (int dx = -REACH_PX; dx <= REACH_PX; dx++) {
             if (fabs(dx * pick_x + dy * pick_y) > across_px || fabs(dy * pick_x - dx * pick_y) > ALONG_PX) continue;
-            double t = dx * across_x + dy * across_y - s->at, u = dy * across_x - dx * across_y, q = t / s->sigma;
-            double phi = erfc(-q * M_SQRT1_2) / 2, slope = s->step * exp(-q * q / 2) / (s->sigma * sqrt(2 * M_PI));
-            double d[PARAMETERS] = { 1, phi, -slope, slope * u, -slope * q };
-            double off = (double)*image_f32(light, c->x + dx, c->y + dy) - s->low - s->step * phi;
+            double t = dx * across_x + dy * across_y - s->at, u = dy * across_x - dx * across_y, q = t / s->sigma, r = t / wide;
+            double phi = erfc(-q * M_SQRT1_2) / 2, more = s->sharpening != 0 || find_sharpening ? phi - erfc(-r * M_SQRT1_2) / 2 : 0;
+            double shape = phi + s->sharpening * more, own = s->step * (1 + s->sharpening) * bell(q) / s->sigma;
+            double other = s->step * s->sharpening * bell(r) / wide, slope = own - other;
+            double d[PARAMETERS] = { 1, shape, -slope, slope * u, -own * q + other * r * s->sigma / wide, find_sharpening ? s->step * more : 0 };
+            double off = (double)*image_f32(light, c->x + dx, c->y + dy) - s->low - s->step * shape;
             for (int i = 0; i < PARAMETERS; i++) {
                 for (int j = 0; j < PARAMETERS; j++) n->a[i][j] += d[i] * d[j];
                 n->a[i][PARAMETERS] += d[i] * off;
@@ -66,6 +81,9 @@ static void compare_with(struct normal *n, const struct image *light, const stru
             n->misfit += off * off;
             n->points++;
         }
+    double known = pow(NOISE * s->step / SHARPENING_SPREAD, 2);
+    n->a[5][5] += known;
+    if (find_sharpening) n->a[5][PARAMETERS] -= known * s->sharpening;
 }
 
 /* Mean of the light on one side of the edge. */
@@ -81,8 +99,8 @@ static double side_of(const struct image *light, const struct candidate *c, doub
     return sum / n;
 }
 
-/* The direction in which the light changes, from the squares of its differences. */
-static double across(const struct image *light, const struct candidate *c)
+/* The direction in which the light changes, from the squares of its differences. Returns false where it has many. */
+static bool across(double *angle, const struct image *light, const struct candidate *c)
 {
     double xx = 0, xy = 0, yy = 0;
     for (int dy = -3; dy <= 3; dy++)
@@ -93,7 +111,8 @@ static double across(const struct image *light, const struct candidate *c)
             xy += gx * gy;
             yy += gy * gy;
         }
-    return atan2(2 * xy, xx - yy) / 2;
+    *angle = atan2(2 * xy, xx - yy) / 2;
+    return hypot(2 * xy, xx - yy) > STRAIGHT_MIN * (xx + yy);
 }
 
 static bool clips(const struct image *rgb, const struct candidate *c)
@@ -106,28 +125,33 @@ static bool clips(const struct image *rgb, const struct candidate *c)
     return false;
 }
 
-/* Out: sigma_px */
-static bool fit(double *sigma_px, const struct image *light, const struct candidate *c, double across_px)
+struct found_edge { struct candidate candidate; double angle, sigma_px, sharpening, low, high; bool telling; };
+
+/* In: sharpening, by which all edges were; NAN when that is looked for */
+static bool fit(struct found_edge *found, const struct image *light, const struct candidate *c, double angle, double across_px,
+                double sharpening)
 {
-    const double angle = across(light, c);
+    const bool find = isnan(sharpening);
     double low = side_of(light, c, angle, -1, across_px), high = side_of(light, c, angle, 1, across_px);
-    struct step s = { low, high - low, 0, angle, 0.8 };
+    struct step s = { low, high - low, 0, angle, 0.8, find ? 0 : sharpening };
     if (fabs(s.step) < CONTRAST_MIN) return false;
     struct normal n;
-    for (int k = 0; k < 12; k++) {
+    for (int k = 0; k < 16; k++) {
         double by[PARAMETERS];
-        compare_with(&n, light, c, &s, angle, across_px);
+        compare_with(&n, light, c, &s, angle, across_px, find);
         if (!solve(by, &n)) return false;
         s.low += by[0];
         s.step += by[1];
         s.at += fmin(fmax(by[2], -1), 1);
         s.angle += fmin(fmax(by[3], -0.1), 0.1);
-        s.sigma = fmin(fmax(s.sigma + by[4], s.sigma / 2), s.sigma * 2);
+        s.sigma = fmin(fmax(s.sigma + by[4], s.sigma / 1.5), s.sigma * 1.5);
+        s.sharpening = fmin(fmax(s.sharpening + by[5], -3), 3);
         if (s.sigma < 0.1 || s.sigma > 5 || fabs(s.at) > 3 || fabs(s.angle - angle) > 0.4) return false;
         if (fabs(by[4]) < 1e-4 && fabs(by[2]) < 1e-3) break;
     }
-    compare_with(&n, light, c, &s, angle, across_px);
-    *sigma_px = s.sigma;
+    compare_with(&n, light, c, &s, angle, across_px, find);
+    *found = (struct found_edge){ *c, angle, s.sigma, s.sharpening, fmin(s.low, s.low + s.step), fmax(s.low, s.low + s.step),
+                                  find && s.sigma < TELLING_PX };
     /* Both sides must be in view for a blur this wide. */
     return fabs(s.step) >= CONTRAST_MIN && sqrt(n.misfit / n.points) <= MISFIT_MAX * fabs(s.step) && 2.2 * s.sigma + fabs(s.at) < across_px;
 }
@@ -160,19 +184,13 @@ static size_t find_candidates(struct candidate *found, const struct image *light
     return n;
 }
 
-static bool luminance_of(struct image *light, const struct image *rgb, struct error *err)
+static bool brightness_of(struct image *light, const struct image *rgb, struct error *err)
 {
     if (!image_init(light, rgb->width_px, rgb->height_px, 1, PIXEL_F32, err)) return false;
-    float of_level[3][256];
-    for (int i = 0; i < 256; i++) {
-        float v = linear_from_srgb((float)i / 255);
-        of_level[0][i] = 0.2126f * v;
-        of_level[1][i] = 0.7152f * v;
-        of_level[2][i] = 0.0722f * v;
-    }
     size_t n = (size_t)rgb->width_px * (size_t)rgb->height_px;
     const uint8_t *px = rgb->data;
-    for (size_t i = 0; i < n; i++, px += 3) ((float *)light->data)[i] = of_level[0][px[0]] + of_level[1][px[1]] + of_level[2][px[2]];
+    for (size_t i = 0; i < n; i++, px += 3)
+        ((float *)light->data)[i] = (0.2126f * px[0] + 0.7152f * px[1] + 0.0722f * px[2]) / 255;
     return true;
 }
 
@@ -182,50 +200,88 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* In: rgb, of which the light is; NULL: nothing clips */
+/* A quartile of what is asked of the edges; sorts `values`. */
+static double quartile(double *values, size_t n, size_t which)
+{
+    qsort(values, n, sizeof *values, compare);
+    return n > 0 ? values[which * n / 4] : 0;
+}
+
+/* What the edges agree on; less than chance would make of as many is nothing. */
+static double agreed_sharpening(struct edges *e, double *values, const struct found_edge *found, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (found[i].telling) values[e->telling++] = found[i].sharpening;
+    for (size_t k = 0; k < 3; k++) e->sharpening_quartiles[k] = quartile(values, e->telling, k + 1);
+    double chance = 2 * (e->sharpening_quartiles[2] - e->sharpening_quartiles[0]) / sqrt((double)e->telling);
+    return e->telling >= TELLING_MIN && e->sharpening_quartiles[1] > chance ? e->sharpening_quartiles[1] : 0;
+}
+
+static void sum_up(struct edges *e, double *values, const struct found_edge *found, size_t n)
+{
+    e->count = n;
+    for (size_t i = 0; i < n; i++) values[i] = found[i].low;
+    e->low = quartile(values, n, 2);
+    for (size_t i = 0; i < n; i++) values[i] = found[i].high;
+    e->high = quartile(values, n, 2);
+    for (size_t i = 0; i < n; i++) values[i] = found[i].sigma_px;
+    for (size_t k = 0; k < 3; k++) e->sigma_px[k] = quartile(values, n, k + 1);
+}
+
+static bool fit_near_or_wide(struct found_edge *found, const struct image *light, const struct candidate *c, double angle, double sharpening)
+{
+    return fit(found, light, c, angle, NARROW_PX, sharpening) || fit(found, light, c, angle, WIDE_PX, isnan(sharpening) ? 0 : sharpening);
+}
+
+/* In: rgb, of which the light is; NULL: nothing clips, and nothing was sharpened */
 static bool measure(struct edges *edges, const struct image *light, const struct image *rgb, const struct image *only, struct error *err)
 {
-    size_t cells = ((size_t)(light->width_px / CELL_PX) + 1) * ((size_t)(light->height_px / CELL_PX) + 1), n = 0;
-    struct candidate *found = malloc(cells * sizeof *found);
-    double *sigma = malloc(EDGES_MAX * sizeof *sigma);
-    bool ok = (found && sigma) || error_set(err, ERR_MEMORY, "no memory for the edges of a picture");
+    size_t cells = ((size_t)(light->width_px / CELL_PX) + 1) * ((size_t)(light->height_px / CELL_PX) + 1), n = 0, kept = 0;
+    struct candidate *candidates = malloc(cells * sizeof *candidates);
+    struct found_edge *found = malloc(EDGES_MAX * sizeof *found);
+    double *values = malloc(EDGES_MAX * sizeof *values);
+    bool ok = (candidates && found && values) || error_set(err, ERR_MEMORY, "no memory for the edges of a picture");
     if (ok) {
-        size_t count = find_candidates(found, light, only), fits = 0;
+        size_t count = find_candidates(candidates, light, only), fits = 0;
         for (size_t i = 0; i < count && fits < EDGES_MAX; i++) {
-            if (rgb && clips(rgb, &found[i])) continue;
+            const struct candidate *c = &candidates[i];
+            double angle;
+            if (!across(&angle, light, c) || (rgb && clips(rgb, c))) continue;
             fits++;
-            if (fit(&sigma[n], light, &found[i], NARROW_PX) || fit(&sigma[n], light, &found[i], WIDE_PX)) n++;
+            n += fit_near_or_wide(&found[n], light, c, angle, rgb ? NAN : 0);
         }
-        qsort(sigma, n, sizeof *sigma, compare);
-        *edges = (struct edges){ .count = n };
-        for (size_t k = 0; k < 3 && n > 0; k++) edges->sigma_px[k] = sigma[(k + 1) * n / 4];
+        *edges = (struct edges){ 0 };
+        if (rgb) edges->sharpening = agreed_sharpening(edges, values, found, n);
+        /* Once more, now that this is known: alone, an edge's own width and sharpening are easily mistaken for each other. */
+        for (size_t i = 0; rgb && i < n; i++) {
+            struct found_edge again = found[i];
+            if (fit_near_or_wide(&again, light, &found[i].candidate, found[i].angle, edges->sharpening)) found[kept++] = again;
+        }
+        sum_up(edges, values, found, rgb ? kept : n);
     }
+    free(candidates);
     free(found);
-    free(sigma);
+    free(values);
     return ok;
 }
 
 bool edges_measure(struct edges *edges, const struct image *rgb, const struct image *only, struct error *err)
 {
     struct image light = { 0 };
-    bool ok = luminance_of(&light, rgb, err) && measure(edges, &light, rgb, only, err);
+    bool ok = brightness_of(&light, rgb, err) && measure(edges, &light, rgb, only, err);
     image_release(&light);
     return ok;
 }
 
-bool edges_of_layer(struct edges *edges, const struct image *object, struct error *err)
+bool edges_of_layer(struct edges *edges, const struct image *object, double low, double high, struct error *err)
 {
-    struct image cover = { 0 };
-    if (!image_init(&cover, object->width_px, object->height_px, 1, PIXEL_F32, err)) return false;
-    size_t n = (size_t)cover.width_px * (size_t)cover.height_px;
-    for (size_t i = 0; i < n; i++) ((float *)cover.data)[i] = ((const float *)object->data)[4 * i + 3];
-    bool ok = measure(edges, &cover, NULL, NULL, err);
-    image_release(&cover);
+    struct image light = { 0 };
+    if (!image_init(&light, object->width_px, object->height_px, 1, PIXEL_F32, err)) return false;
+    size_t n = (size_t)light.width_px * (size_t)light.height_px;
+    const float dark = linear_from_srgb((float)low), bright = linear_from_srgb((float)high);
+    const float *px = object->data;
+    for (size_t i = 0; i < n; i++) ((float *)light.data)[i] = srgb_from_linear(dark + (bright - dark) * px[4 * i + 3]);
+    bool ok = measure(edges, &light, NULL, NULL, err);
+    image_release(&light);
     return ok;
-}
-
-double edge_softness(double wanted_px, double own_px)
-{
-    double rest = wanted_px * wanted_px - own_px * own_px;
-    return rest > 0 ? sqrt(rest) : 0;
 }

@@ -56,16 +56,16 @@ static bool transfer(struct image *out, const struct frame_input *f, const struc
 }
 
 /* What air and lens do to the layers. */
-static bool through_optics(struct frame_input *f, const struct image *linear, struct error *err)
+static bool through_optics(struct frame_input *f, const struct hand *hand, const struct image *linear, struct error *err)
 {
     const struct manifest *m = &f->manifest;
     struct image depth;
-    if (!optics_wanted(m)) return true;
+    if (!optics_wanted(m) && hand->too_soft_px2 <= 0) return true;
     if (!window_cut(&depth, &f->depth, m->view.window_px, err)) return false;
     struct optics_input in = {
         .manifest = m, .photograph = linear, .depth = &depth, .ground = &f->ground, .motion = &f->motion,
         .visible = m->has_shares ? &f->visible : NULL, .receiver = m->has_shares ? &f->receiver : NULL,
-        .exposure = { m->exposure[0], m->exposure[1], m->exposure[2] },
+        .exposure = { m->exposure[0], m->exposure[1], m->exposure[2] }, .too_soft_px2 = hand->too_soft_px2,
     };
     bool ok = optics_apply(&f->layers[OBJECT], &f->layers[PLANE], &f->layers[SHADOW], &in, err);
     image_release(&depth);
@@ -89,7 +89,7 @@ static bool through_lens(struct frame_input *f, const struct hand *hand, const s
     struct image *object = &f->layers[OBJECT];
     if (hand->fall_off > 0)
         vignette_shade(object, hand->fall_off, m->exposure_at_px, m->view.window_px, m->width_px, m->height_px);
-    if (!through_optics(f, linear, err)) return false;
+    if (!through_optics(f, hand, linear, err)) return false;
     if (hand->knee < 1) highlights_keep(object, hand->knee, m->exposure);
     return true;
 }

@@ -1,6 +1,8 @@
 #include "post/hand.h"
 
 #include "post/flat.h"
+#include "post/sharpening.h"
+#include "post/softness.h"
 #include "post/transfer.h"
 #include "post/window.h"
 
@@ -43,11 +45,15 @@ static bool take_compression(struct hand *h, const struct manifest *m, const cha
  * shadows or of what is out of focus. */
 static bool take_softness(struct hand *h, const struct manifest *m, const struct image *rgb, const struct image *object, struct error *err)
 {
-    if (!m->softness_auto) return true;
-    if (!edges_measure(&h->edges, rgb, NULL, err) || !edges_of_layer(&h->layer_edges, object, err)) return false;
-    if (h->edges.count < EDGES_MIN) return true;
+    if ((m->softness_auto || m->sharpening_auto) && !edges_measure(&h->edges, rgb, NULL, err)) return false;
+    const struct edges *e = &h->edges;
+    if (m->sharpening_auto) h->sharpening = e->sharpening;
+    if (!m->softness_auto || e->count < EDGES_MIN) return true;
+    if (!edges_of_layer(&h->layer_edges, object, e->low, e->high, err)) return false;
     double own_px = h->layer_edges.count < EDGES_MIN ? LAYER_EDGE_PX : h->layer_edges.sigma_px[0];
-    h->softness_px = fmin(edge_softness(h->edges.sigma_px[0], own_px), MANIFEST_SOFTNESS_AUTO_MAX_PX);
+    double rest_px2 = e->sigma_px[0] * e->sigma_px[0] - own_px * own_px;
+    if (rest_px2 > 0) h->softness_px = fmin(sqrt(rest_px2), MANIFEST_SOFTNESS_AUTO_MAX_PX);
+    else h->too_soft_px2 = fmin(-rest_px2, SOFTNESS_TAKEN_BACK_MAX_PX2);
     return true;
 }
 
@@ -68,14 +74,15 @@ static bool measure(struct hand *h, const struct manifest *m, const struct image
 bool hand_measure(struct hand *hand, const struct manifest *m, const struct image *rgb, const char *path,
                   const struct image *object, struct error *err)
 {
-    struct hand h = { .softness_px = m->softness_auto ? 0 : m->softness_px, .knee = 1 };
+    struct hand h = { .softness_px = m->softness_auto ? 0 : m->softness_px, .sharpening = m->sharpening_auto ? 0 : m->sharpening, .knee = 1 };
     if (!m->grain_auto && m->grain > 0) {
         h.has_grain = true;
         h.grain = grain_white(m->grain);
     }
     /* No camera took a new view: what is to be measured is not there. */
     struct manifest given = *m;
-    if (m->new_view) given.softness_auto = given.grain_auto = given.vignetting_auto = given.highlights_auto = given.compression_auto = false;
+    if (m->new_view)
+        given.softness_auto = given.sharpening_auto = given.grain_auto = given.vignetting_auto = given.highlights_auto = given.compression_auto = false;
     if (!measure(&h, &given, rgb, path, object, err)) return false;
     *hand = h;
     return true;
@@ -135,28 +142,38 @@ static bool compress(struct image *levels, const struct image *rgb, const struct
     return ok;
 }
 
-static bool add_grain(struct image *levels, const struct hand *h, const struct manifest *m, const struct image *object,
-                      const struct image *visible, struct error *err)
+static bool cover_take(struct image *cover, const struct image *object, const struct image *visible, struct error *err)
 {
-    struct image cover;
-    if (!image_init(&cover, levels->width_px, levels->height_px, 1, PIXEL_F32, err)) return false;
-    size_t n = (size_t)cover.width_px * (size_t)cover.height_px;
-    for (size_t i = 0; i < n; i++) ((float *)cover.data)[i] = ((const float *)object->data)[4 * i + 3] * transfer_share(visible, i);
-    struct draw_key key = { .seed = (uint64_t)m->seed, .frame = strtoll(m->frame, NULL, 10) };
-    bool ok = grain_add(levels, &cover, &h->grain, key, m->view.window_px, m->width_px, err);
-    image_release(&cover);
+    if (!image_init(cover, object->width_px, object->height_px, 1, PIXEL_F32, err)) return false;
+    size_t n = (size_t)cover->width_px * (size_t)cover->height_px;
+    for (size_t i = 0; i < n; i++) ((float *)cover->data)[i] = ((const float *)object->data)[4 * i + 3] * transfer_share(visible, i);
+    return true;
+}
+
+static bool sharpen(struct image *levels, const struct image *rgb, const struct image *cover, double amount, struct rect w, struct error *err)
+{
+    struct image own;
+    if (!image_init(&own, levels->width_px, levels->height_px, 3, PIXEL_F32, err)) return false;
+    for (int y = 0; y < own.height_px; y++)
+        for (int i = 0; i < 3 * own.width_px; i++) image_f32(&own, 0, y)[i] = image_u8(rgb, w.x0, w.y0 + y)[i];
+    bool ok = sharpening_add(levels, &own, cover, amount, err);
+    image_release(&own);
     return ok;
 }
 
+/* The file's blocks come after the sharpening, and the grain after these: on what had been pressed it was measured. */
 bool hand_develop(struct image *rgb, const struct hand *hand, const struct manifest *m, const struct image *before,
                   const struct image *after, const struct image *object, const struct image *visible, struct error *err)
 {
-    struct image levels;
+    struct image levels = { 0 }, cover = { 0 };
     struct rect w = m->view.window_px;
-    if (!levels_take(&levels, rgb, before, after, w, err)) return false;
-    bool ok = (!hand->compression.found || compress(&levels, rgb, &hand->compression, w, err)) &&
-              (!hand->has_grain || add_grain(&levels, hand, m, object, visible, err));
+    struct draw_key key = { .seed = (uint64_t)m->seed, .frame = strtoll(m->frame, NULL, 10) };
+    bool ok = levels_take(&levels, rgb, before, after, w, err) && cover_take(&cover, object, visible, err) &&
+              (hand->sharpening <= 0 || sharpen(&levels, rgb, &cover, hand->sharpening, w, err)) &&
+              (!hand->compression.found || compress(&levels, rgb, &hand->compression, w, err)) &&
+              (!hand->has_grain || grain_add(&levels, &cover, &hand->grain, key, w, m->width_px, err));
     if (ok) put_changes(rgb, &levels, rgb, w);
     image_release(&levels);
+    image_release(&cover);
     return ok;
 }

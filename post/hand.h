@@ -17,6 +17,8 @@
 struct hand {
     /* what is done */
     double softness_px;
+    double too_soft_px2;            /* variance that the layers as rendered have too much */
+    double sharpening;
     bool has_grain;
     struct grain grain;
     double fall_off;                /* 0: none */

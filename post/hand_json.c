@@ -27,12 +27,23 @@ static const char *source(bool automatic, bool done)
 
 static json_t *softness(const struct hand *h, const struct manifest *m)
 {
-    json_t *o = json_pack("{s:s, s:o}", "source", source(m->softness_auto, h->softness_px > 0), "px", number(h->softness_px));
+    json_t *o = json_pack("{s:s, s:o, s:o}", "source", source(m->softness_auto, h->softness_px > 0 || h->too_soft_px2 > 0),
+                          "px", number(h->softness_px), "taken_back_px2", number(h->too_soft_px2));
     if (m->softness_auto) {
         json_object_set_new(o, "edges", json_integer((json_int_t)h->edges.count));
         json_object_set_new(o, "edge_sigma_px_quartiles", numbers(h->edges.sigma_px, 3));
         json_object_set_new(o, "rendered_edges", json_integer((json_int_t)h->layer_edges.count));
         json_object_set_new(o, "rendered_edge_sigma_px_quartiles", numbers(h->layer_edges.sigma_px, 3));
+    }
+    return o;
+}
+
+static json_t *sharpening(const struct hand *h, const struct manifest *m)
+{
+    json_t *o = json_pack("{s:s, s:o}", "source", source(m->sharpening_auto, h->sharpening > 0), "amount", number(h->sharpening));
+    if (m->sharpening_auto) {
+        json_object_set_new(o, "edges", json_integer((json_int_t)h->edges.telling));
+        json_object_set_new(o, "amount_quartiles", numbers(h->edges.sharpening_quartiles, 3));
     }
     return o;
 }
@@ -98,8 +109,8 @@ static json_t *compression(const struct hand *h)
 
 bool hand_write(const char *path, const struct hand *h, const struct manifest *m, struct error *err)
 {
-    json_t *json = json_pack("{s:o, s:o, s:o, s:o, s:o}", "softness", softness(h, m), "grain", grain(h, m), "vignetting",
-                             vignetting(h, m), "highlights", highlights(h, m), "compression", compression(h));
+    json_t *json = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "softness", softness(h, m), "sharpening", sharpening(h, m), "grain", grain(h, m),
+                             "vignetting", vignetting(h, m), "highlights", highlights(h, m), "compression", compression(h));
     char *text = json ? json_dumps(json, JSON_INDENT(1) | JSON_REAL_PRECISION(9)) : NULL;
     bool ok = text ? file_write(path, text, strlen(text), err) : error_set(err, ERR_MEMORY, "no memory for %s", path);
     free(text);

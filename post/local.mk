@@ -26,6 +26,7 @@ post_libpost_a_SOURCES = \
   %D%/output.c %D%/output.h \
   %D%/resample.c %D%/resample.h \
   %D%/semantic.c %D%/semantic.h \
+  %D%/sharpening.c %D%/sharpening.h \
   %D%/softness.c %D%/softness.h \
   %D%/spread.c %D%/spread.h \
   %D%/stats.c %D%/stats.h %D%/stats_text.c \

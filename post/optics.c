@@ -29,9 +29,10 @@ bool optics_apply(struct image *object, struct image *plane, struct image *shado
     const struct manifest *m = in->manifest;
     const struct image *v = in->visible, *g = in->receiver;
     struct image light;
-    if (!optics_wanted(m)) return true;
+    if (!optics_wanted(m) && in->too_soft_px2 <= 0) return true;
     if (!ground_light_take(&light, plane, shadow, err)) return false;
-    bool ok = (!m->has_motion || motion_blur(object, &light, in->motion, in->depth, plane, v, g, err)) &&
+    bool ok = (in->too_soft_px2 <= 0 || softness_take_back(object, &light, in->too_soft_px2, err)) &&
+              (!m->has_motion || motion_blur(object, &light, in->motion, in->depth, plane, v, g, err)) &&
               (m->defocus_px <= 0 || defocus_blur(object, &light, in->depth, in->ground, v, g, m->defocus_px, m->focus_m, err)) &&
               (m->softness_px <= 0 || softness_blur(object, &light, v, g, m->softness_px, err)) &&
               (!m->has_mist || fade(object, plane, &light, in, err));

@@ -16,12 +16,13 @@ struct optics_input {                 /* all borrowed, of the view's window */
     const struct image *motion;       /* F32, 3 channels; empty without motion */
     const struct image *visible, *receiver; /* U8, or NULL: nothing hides */
     double exposure[3];
+    double too_soft_px2;              /* variance that the layers as rendered have too much */
 };
 
 /* Whether there is anything to do in this frame. */
 bool optics_wanted(const struct manifest *manifest);
 
-/* Motion blur, defocus and softness, then mist, for those that the manifest asks for. What nothing
+/* First, what the layers are too soft is taken back. Then motion blur, defocus and softness, then mist, for those that the manifest asks for. What nothing
  * reaches keeps every bit, and its ratio of shadow to plane is 1.
  * In/out: object, plane, shadow (F32 RGBA)
  * Err: ERR_MEMORY */

@@ -70,3 +70,35 @@ bool softness_blur(struct image *object, struct image *light, const struct image
     double sampled_px = for_pixels(sigma_px);
     return blur(object, visible, sampled_px, err) && blur(light, receiver, sampled_px, err);
 }
+
+/* Along rows, or along columns: three weights that blur by less than nothing. */
+static bool narrow(struct image *layer, int dx, int dy, double variance_px2, struct error *err)
+{
+    struct image out;
+    float beside = (float)(variance_px2 / 2);
+    int w = layer->width_px, h = layer->height_px;
+    if (!layer_copy(&out, layer, err)) return false;
+    for (int y = dy; y < h - dy; y++)
+        for (int x = dx; x < w - dx; x++) {
+            const float *here = image_f32(layer, x, y), *before = image_f32(layer, x - dx, y - dy), *after = image_f32(layer, x + dx, y + dy);
+            float *to = image_f32(&out, x, y);
+            for (int c = 0; c < layer->channels; c++) to[c] = here[c] + beside * (2 * here[c] - before[c] - after[c]);
+        }
+    layer_replace(layer, &out, true);
+    return true;
+}
+
+bool softness_take_back(struct image *object, struct image *light, double variance_px2, struct error *err)
+{
+    double v = fmin(variance_px2, SOFTNESS_TAKEN_BACK_MAX_PX2);
+    if (!narrow(object, 1, 0, v, err) || !narrow(object, 0, 1, v, err) || !narrow(light, 1, 0, v, err) || !narrow(light, 0, 1, v, err))
+        return false;
+    size_t n = (size_t)object->width_px * (size_t)object->height_px;
+    float *px = object->data;
+    for (size_t i = 0; i < n; i++, px += 4) {
+        float cover = px[3] > 0 ? px[3] < 1 ? px[3] : 1 : 0, scale = px[3] > 0 ? cover / px[3] : 0;
+        for (int c = 0; c < 3; c++) px[c] = px[c] > 0 ? px[c] * scale : 0;
+        px[3] = cover;
+    }
+    return true;
+}

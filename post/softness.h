@@ -14,4 +14,11 @@
 bool softness_blur(struct image *object, struct image *light, const struct image *visible, const struct image *receiver,
                    double sigma_px, struct error *err);
 
+#define SOFTNESS_TAKEN_BACK_MAX_PX2 0.1 /* more would show the steps between few samples */
+
+/* Make both layers narrower by this variance, at most SOFTNESS_TAKEN_BACK_MAX_PX2: what an anti-aliasing of few
+ * samples has blurred too much. Cover stays between 0 and 1, and light at or above 0.
+ * In/out: as above. Err: ERR_MEMORY */
+bool softness_take_back(struct image *object, struct image *light, double variance_px2, struct error *err);
+
 #endif

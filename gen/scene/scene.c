@@ -68,6 +68,7 @@ static void read_lens_effects(const struct reading *r, const struct yaml_node *l
     const struct yaml_node *focus = yaml_get(lens, "focus_m");
     scene->exposure_s = number_at(lens, "exposure_s");
     scene->defocus_px = number_at(lens, "defocus_px");
+    scene->sharpening_auto = read_trait(&scene->sharpening, yaml_get(lens, "sharpening"));
     scene->softness_auto = read_trait(&scene->softness_px, yaml_get(lens, "softness_px"));
     scene->grain_auto = read_trait(&scene->grain, yaml_get(lens, "grain"));
     scene->vignetting_auto = read_trait(&scene->vignetting, yaml_get(lens, "vignetting"));

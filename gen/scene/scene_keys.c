@@ -203,6 +203,7 @@ static const struct schema_key keys[] = {
     { "lens.defocus_px", TYPE_NUMBER, "px", .preset = "0", LIMITS(0, 500) },
     { "lens.focus_m", TYPE_NUMBER, "m", ABOVE(0, INFINITY) },
     { "lens.softness_px", TYPE_NUMBER | TYPE_CHOICE, "px", .preset = "auto", LIMITS(0, 100), .choice = trait_name },
+    { "lens.sharpening", TYPE_NUMBER | TYPE_CHOICE, .preset = "auto", LIMITS(0, 3), .choice = trait_name },
     { "lens.grain", TYPE_NUMBER | TYPE_CHOICE, .preset = "auto", LIMITS(0, 100), .choice = trait_name },
     { "lens.compression", TYPE_CHOICE, .preset = "auto", .choice = trait_name },
     { "lens.vignetting", TYPE_NUMBER | TYPE_CHOICE, .preset = "none", LIMITS(0, 0.95), .choice = trait_name },

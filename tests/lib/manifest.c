@@ -48,6 +48,7 @@ static struct manifest whole_manifest(void)
         .defocus_px = 1 / 3.0,
         .focus_m = 20.5,
         .softness_px = 0.7,
+        .sharpening = 0.4,
         .grain_auto = true,
         .compression_auto = true,
         .vignetting = 0.3,
@@ -90,7 +91,7 @@ static bool same(const struct manifest *a, const struct manifest *b)
            !strcmp(a->depth, b->depth) && a->has_mist == b->has_mist && a->visibility_m == b->visibility_m &&
            !memcmp(a->haze, b->haze, sizeof a->haze) && a->has_motion == b->has_motion &&
            a->defocus_px == b->defocus_px && a->focus_m == b->focus_m && a->softness_px == b->softness_px &&
-           a->softness_auto == b->softness_auto && a->grain_auto == b->grain_auto && a->grain == b->grain &&
+           a->softness_auto == b->softness_auto && a->sharpening_auto == b->sharpening_auto && a->sharpening == b->sharpening && a->grain_auto == b->grain_auto && a->grain == b->grain &&
            a->vignetting_auto == b->vignetting_auto && a->vignetting == b->vignetting && a->highlights_auto == b->highlights_auto &&
            a->highlights == b->highlights && a->compression_auto == b->compression_auto && a->seed == b->seed;
 }

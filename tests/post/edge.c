@@ -32,15 +32,18 @@ static struct image covered(void)
     return cover;
 }
 
-static struct image taken(const struct image *layer, double grain)
+static struct image taken(const struct image *layer, double sharpening, double grain)
 {
-    struct image rgb = grey(W, H, 0);
-    for (int y = 0; y < H; y++)
-        for (int x = 0; x < W; x++) {
-            const float *px = image_f32(layer, x, y);
-            for (int c = 0; c < 3; c++)
-                image_u8(&rgb, x, y)[c] = byte(255 * (double)srgb_from_linear(0.08f * (1 - px[3]) + px[c]) + grain * noise());
-        }
+    struct image rgb = grey(W, H, 0), levels;
+    struct error err = ERROR_NONE;
+    if (!image_init(&levels, W, H, 3, PIXEL_F32, &err)) exit(99);
+    for (int i = 0; i < W * H; i++) {
+        const float *px = (const float *)layer->data + 4 * i;
+        for (int c = 0; c < 3; c++) ((float *)levels.data)[3 * i + c] = 255 * srgb_from_linear(0.08f * (1 - px[3]) + px[c]);
+    }
+    if (sharpening > 0) camera_sharpens(&levels, sharpening);
+    for (size_t i = 0; i < image_size(&rgb); i++) ((uint8_t *)rgb.data)[i] = byte((double)((float *)levels.data)[i] + grain * noise());
+    image_release(&levels);
     return rgb;
 }
 
@@ -55,31 +58,32 @@ int main(void)
         struct image layer = covered(), light = { 0 };
         if (!image_init(&light, W, H, 3, PIXEL_F32, &err)) return 99;
         softness_blur(&layer, &light, NULL, NULL, blurs[i], &err);
-        struct image rgb = taken(&layer, 1.5);
+        struct image rgb = taken(&layer, 0, 1.5);
         OK(edges_measure(&edges, &rgb, NULL, &err) && edges.count > 40, "edges are found: %zu", edges.count);
         NEAR(edges.sigma_px[1] / hypot(blurs[i], pixel), 1, 0.15, "they are blurred by %g px", blurs[i]);
         NEAR(edges.sigma_px[0] / hypot(blurs[i], pixel), 1, 0.15, "nearly all of them");
-        OK(edges_of_layer(&edges, &layer, &err), "and those of the layer itself");
+        OK(edges_of_layer(&edges, &layer, 0.3, 0.7, &err), "and those of the layer itself");
         NEAR(edges.sigma_px[1] / hypot(blurs[i], pixel), 1, 0.1, "as much");
         image_release(&rgb);
         image_release(&light);
         image_release(&layer);
     }
 
-    /* A layer as sharp as pixels are, to be put into a photograph of softness 0.9. */
-    struct image layer = covered(), light = { 0 };
-    if (!image_init(&light, W, H, 3, PIXEL_F32, &err)) return 99;
-    edges_of_layer(&edges, &layer, &err);
-    softness_blur(&layer, &light, NULL, NULL, edge_softness(hypot(0.9, pixel), edges.sigma_px[0]), &err);
-    struct image rgb = taken(&layer, 0);
-    edges_measure(&edges, &rgb, NULL, &err);
-    NEAR(edges.sigma_px[1] / hypot(0.9, pixel), 1, 0.15, "what is put in gets the photograph's edges");
-    NEAR(edge_softness(0.3, 0.5), 0, 0, "and is never sharpened");
-    image_release(&rgb);
-    image_release(&light);
-    image_release(&layer);
+    for (int i = 0; i < 3; i++) {
+        static const double amounts[] = { 0, 0.35, 0.8 };
+        struct image layer = covered(), light = { 0 };
+        if (!image_init(&light, W, H, 3, PIXEL_F32, &err)) return 99;
+        softness_blur(&layer, &light, NULL, NULL, 0.3, &err);
+        struct image rgb = taken(&layer, amounts[i], 1.5);
+        OK(edges_measure(&edges, &rgb, NULL, &err) && edges.telling > 40, "of a camera that sharpens by %g: %zu", amounts[i], edges.telling);
+        NEAR(edges.sharpening, amounts[i], 0.1 + 0.15 * amounts[i], "so much is found");
+        NEAR(edges.sigma_px[1] / hypot(0.3, pixel), 1, 0.15, "and how wide the edges were before");
+        image_release(&rgb);
+        image_release(&light);
+        image_release(&layer);
+    }
 
-    rgb = grey(W, H, 90);
+    struct image rgb = grey(W, H, 90);
     OK(edges_measure(&edges, &rgb, NULL, &err) && edges.count == 0, "where there is no edge none is found");
     image_release(&rgb);
     return tap_done();

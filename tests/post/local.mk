@@ -108,3 +108,8 @@ check_PROGRAMS += tests/post/vignette.test
 tests_post_vignette_test_SOURCES = %D%/vignette.c %D%/taken.h tests/tap.h
 nodist_EXTRA_tests_post_vignette_test_SOURCES = dummy.cxx
 tests_post_vignette_test_LDADD = $(POST_LIBS)
+
+check_PROGRAMS += tests/post/sharpening.test
+tests_post_sharpening_test_SOURCES = %D%/sharpening.c %D%/taken.h tests/tap.h
+nodist_EXTRA_tests_post_sharpening_test_SOURCES = dummy.cxx
+tests_post_sharpening_test_LDADD = $(POST_LIBS)

@@ -26,6 +26,24 @@ int main(void)
     OK(softness_blur(&object, &light, NULL, NULL, 0.4, &err), "by less than a pixel");
     NEAR(variance_of(&object, 3, 20), 0.16, 1e-3, "they are softened as much as asked");
 
+    memset(object.data, 0, image_size(&object));
+    memset(light.data, 0, image_size(&light));
+    fill(&object, 10, 0, 30, H, (float[]){ 0.2f, 0.2f, 0.2f, 1 });
+    fill(&light, 10, 0, 30, H, (float[]){ -0.5f, 0, 0, 0 });
+    for (int y = 0; y < H; y++) {
+        image_f32(&object, 9, y)[3] = image_f32(&object, 30, y)[3] = 0.5f;
+        for (int c = 0; c < 3; c++) image_f32(&object, 9, y)[c] = image_f32(&object, 30, y)[c] = 0.1f;
+    }
+    OK(softness_take_back(&object, &light, 0.08, &err), "what is too soft is made narrower");
+    NEAR((double)image_f32(&object, 9, 10)[3], 0.5, 1e-6, "its outline stays where it is");
+    OK(image_f32(&object, 10, 10)[3] == 1 && image_f32(&object, 8, 10)[3] == 0, "its cover within bounds");
+    NEAR((double)image_f32(&object, 10, 10)[0], 0.2, 1e-6, "its colour what it was");
+    NEAR((double)image_f32(&light, 10, 10)[0], -0.52, 1e-6, "a step of the light gets 0.04 of it steeper");
+    NEAR((double)image_f32(&light, 9, 10)[0], 0.02, 1e-6, "on both sides");
+    OK(image_f32(&light, 7, 10)[0] == 0, "and nothing else changes");
+
+    memset(light.data, 0, image_size(&light));
+    memset(object.data, 0, image_size(&object));
     fill(&object, 10, 0, 30, H, (float[]){ 0.2f, 0.2f, 0.2f, 1 });
     struct image hidden = hidden_between(W, H, 20, 30);
     OK(softness_blur(&object, &light, &hidden, &hidden, 1.5, &err), "of what is half hidden");
