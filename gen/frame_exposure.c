@@ -1,5 +1,6 @@
 #include "gen/frame_impl.h"
 
+#include "gen/estimate/lit_ground.h"
 #include "gen/sunlit.h"
 #include "lib/air.h"
 #include "lib/file.h"
@@ -8,19 +9,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Of the ground in the open, as the plane pass renders it. */
-static void ground_radiance(double rgb[3], const struct frame *f)
+/* Of the ground in the open, as the plane pass renders it. In: at_px where it mirrors, when it is wet */
+static void ground_radiance(double rgb[3], const struct frame *f, struct vec2 at_px)
 {
     const struct scene *s = f->scene;
     light_irradiance(rgb, f->context->light, s->ground.normal);
     for (int c = 0; c < 3; c++) rgb[c] *= s->ground_albedo[c];
     if (s->ground_reflection <= 0 || s->exposure_of_roads) return;
-    /* A wet ground mirrors the sky as well: as seen in the middle of the exposure patch. */
-    struct vec2 middle = { (s->exposure_patch_px[0].x + s->exposure_patch_px[1].x) / 2,
-                           (s->exposure_patch_px[0].y + s->exposure_patch_px[1].y) / 2 };
+    /* A wet ground mirrors the sky as well. */
     struct error ignored = ERROR_NONE;
     struct vec3 p;
-    if (!ground_from_pixel(&p, &s->ground, f->camera, f->shot->world_from_camera, frame_scaled_px(f, middle), &ignored)) return;
+    if (!ground_from_pixel(&p, &s->ground, f->camera, f->shot->world_from_camera, at_px, &ignored)) return;
     struct vec3 d = vec3_unit(vec3_sub(p, f->shot->world_from_camera.translation));
     double cosine = -vec3_dot(d, s->ground.normal), sky[3];
     double share = s->ground_reflection + (1 - s->ground_reflection) * pow(1 - cosine, 5);
@@ -66,22 +65,51 @@ static bool clear(struct frame *f, const struct vec2 *q_px, size_t n, const doub
            exposure_clear(&f->exposure, air_transmission(s->visibility_m, distance), s->haze, radiance, s->white_balance, err);
 }
 
-static bool fit_to_patch(struct frame *f, const double radiance[3], struct error *err)
+static bool fit_to_patch(struct frame *f, struct error *err)
 {
     struct rect patch = patch_px(f);
     struct vec2 middle = { (patch.x0 + patch.x1) / 2.0, (patch.y0 + patch.y1) / 2.0 };
+    double radiance[3];
+    ground_radiance(radiance, f, middle);
     return exposure_fit(&f->exposure, &f->picture, patch, radiance, f->scene->white_balance, err) &&
            clear(f, &middle, 1, radiance, err);
 }
 
-static bool fit_to_roads(struct frame *f, const double radiance[3], struct error *err)
+static bool fit_to_roads(struct frame *f, struct error *err)
 {
+    double radiance[3];
+    ground_radiance(radiance, f, (struct vec2){ 0, 0 });
     struct vec2 *sample_px = NULL;
     size_t n = 0;
     if (!sunlit_pixels(&sample_px, &n, f->stage, f->context->light, f->camera, f->shot->world_from_camera, err)) return false;
     bool ok = n > 0 || error_set(err, ERR_INPUT, "exposure.roads: frame %s shows no road in full light to be fitted to: give "
                                  "exposure.value, or leave the shot in line %d out", f->name, f->shot->source.line);
     ok = ok && exposure_fit_samples(&f->exposure, &f->picture, sample_px, n, radiance, f->scene->white_balance, err) &&
+         clear(f, sample_px, n, radiance, err);
+    free(sample_px);
+    return ok;
+}
+
+/* To the ground that the picture shows most of, in the light. */
+static bool fit_to_ground(struct frame *f, struct error *err)
+{
+    const struct light *light = f->context->light;
+    struct tones tones = { 0 };
+    struct ground_view view = { 0 };
+    struct lit_ground lit;
+    struct vec2 *sample_px = NULL, middle = { 0, 0 };
+    size_t n = 0;
+    double radiance[3];
+    bool ok = tones_of(&tones, &f->picture, err) &&
+              ground_view_of(&view, f->stage, &tones, f->camera, f->shot->world_from_camera, err) &&
+              lit_ground_find(&lit, &sample_px, &n, f->stage, &tones, &view, light->has_sun ? &light->sun_direction : NULL, f->camera,
+                              f->shot->world_from_camera, err);
+    tones_release(&tones);
+    ground_view_release(&view);
+    if (!ok) return false;
+    for (size_t i = 0; i < n; i++) middle = (struct vec2){ middle.x + sample_px[i].x / (double)n, middle.y + sample_px[i].y / (double)n };
+    ground_radiance(radiance, f, middle);
+    ok = exposure_fit_samples(&f->exposure, &f->picture, sample_px, n, radiance, f->scene->white_balance, err) &&
          clear(f, sample_px, n, radiance, err);
     free(sample_px);
     return ok;
@@ -100,14 +128,12 @@ bool frame_read_picture(struct frame *f, struct error *err)
 bool frame_expose(struct frame *f, struct error *err)
 {
     const struct scene *s = f->scene;
-    double radiance[3];
     if (s->exposure_given) {
         f->exposure = exposure_given(s->exposure, f->camera->width_px, f->camera->height_px);
         return true;
     }
     if (!frame_read_picture(f, err)) return false;
-    ground_radiance(radiance, f);
-    if (s->exposure_of_roads ? fit_to_roads(f, radiance, err) : fit_to_patch(f, radiance, err)) return true;
+    if (s->exposure_of_roads ? fit_to_roads(f, err) : s->exposure_of_ground ? fit_to_ground(f, err) : fit_to_patch(f, err)) return true;
     stage_fail(s, s->exposure_source, err);
     return error_prefix(err, "%s: ", f->photograph[0] ? f->photograph : "a new view");
 }

@@ -1,5 +1,6 @@
 #include "gen/generator.h"
 
+#include "gen/estimate/estimate.h"
 #include "gen/render/passes.h"
 #include "lib/file.h"
 #include "lib/image.h"
@@ -16,7 +17,10 @@
 #define DEG (180 / M_PI)
 
 struct generator {
-    const struct scene *scene;
+    struct scene own;               /* the scene with its light as it was found; what it points to is borrowed */
+    const struct scene *scene;      /* &own */
+    bool estimated;
+    struct light_estimate estimate;
     const char *out_folder;
     struct material_rules *rules;
     struct stage *stage;
@@ -28,6 +32,8 @@ struct generator {
     struct include_set includes;
     uint64_t input_hash;            /* of all that every frame depends on */
 };
+
+static char *photograph_path(const struct generator *g, size_t frame, struct error *err);
 
 /* --- what is loaded once --- */
 
@@ -93,21 +99,43 @@ static uint64_t hash_settings(uint64_t hash, const struct generator *g)
     return hash_bytes(hash, settings.receiver_antialias, strlen(settings.receiver_antialias));
 }
 
+/* A scene whose light is to be found from its photographs. */
+static bool estimate_light(struct generator *g, struct error *err)
+{
+    size_t shots[ESTIMATE_PHOTOGRAPHS], n = estimate_shots(shots, g->scene);
+    struct estimate_photograph photographs[ESTIMATE_PHOTOGRAPHS] = { 0 };
+    char *paths[ESTIMATE_PHOTOGRAPHS] = { 0 };
+    bool ok = generator_prepare(g, shots, n, err);
+    for (size_t i = 0; ok && i < n; i++) {
+        char *named = photograph_path(g, shots[i], err);
+        paths[i] = named ? path_from_folder(g->out_folder, named) : NULL;
+        ok = paths[i] || error_set(err, ERR_MEMORY, "no memory for a path");
+        photographs[i] = (struct estimate_photograph){ shots[i], paths[i] };
+        free(named);
+    }
+    ok = ok && light_estimate(&g->estimate, g->stage, photographs, n, err);
+    for (size_t i = 0; i < n; i++) free(paths[i]);
+    if (!ok) return false;
+    light_estimate_apply(&g->own, &g->estimate);
+    g->estimated = true;
+    return true;
+}
+
 bool generator_create(struct generator **generator, const struct scene *scene, const char *out_folder,
                       const char *rules_path, struct error *err)
 {
     struct generator *g = calloc(1, sizeof *g);
     if (!g) return error_set(err, ERR_MEMORY, "no memory for the generator");
     const char *rules = scene->material_rules ? scene->material_rules : rules_path;
-    *g = (struct generator){ .scene = scene, .out_folder = out_folder };
-    if (!material_rules_read(&g->rules, rules, err) || !open_video(g, err) || !light_create(&g->light, scene, err) ||
-        !sky_map_write(g->sky_map, out_folder, &g->light, err)) {
-        generator_destroy(g);
-        return false;
-    }
-    g->input_hash = hash_settings(FILE_HASH_SEED, g);
-    if (!file_hash(&g->input_hash, rules, err) ||
-        !stage_create(&g->stage, scene, g->rules, err) || !trace_models(g, err)) {
+    *g = (struct generator){ .own = *scene, .out_folder = out_folder };
+    g->scene = &g->own;
+    bool ok = material_rules_read(&g->rules, rules, err) && open_video(g, err);
+    if (ok && scene->sky == SKY_AUTO) ok = stage_create(&g->stage, g->scene, g->rules, err) && estimate_light(g, err);
+    ok = ok && light_create(&g->light, g->scene, err) && sky_map_write(g->sky_map, out_folder, &g->light, err);
+    if (ok) g->input_hash = hash_settings(FILE_HASH_SEED, g);
+    ok = ok && file_hash(&g->input_hash, rules, err) && (g->stage || stage_create(&g->stage, g->scene, g->rules, err)) &&
+         trace_models(g, err);
+    if (!ok) {
         generator_destroy(g);
         return false;
     }
@@ -145,6 +173,19 @@ size_t generator_warning_count(const struct generator *g)
 const char *generator_warning(const struct generator *g, size_t i)
 {
     return g->stage->warnings[i];
+}
+
+/* Of level ground in the open. */
+static void ground_radiance(double rgb[3], const struct generator *g)
+{
+    for (int c = 0; c < 3; c++) rgb[c] = g->scene->ground_albedo[c] * g->light.irradiance[c];
+}
+
+char *generator_light_text(const struct generator *g)
+{
+    double radiance[3];
+    ground_radiance(radiance, g);
+    return g->estimated ? light_estimate_text(&g->estimate, radiance) : string_format("%s", "");
 }
 
 /* --- photographs --- */
@@ -323,6 +364,11 @@ bool generator_write_run(const struct generator *g, const struct frame_result *f
         json_object_set_new(run, "sun_direction", json_pack("[fff]", d.x, d.y, d.z));
         json_object_set_new(run, "sun_elevation_deg", json_real(asin(d.z) * DEG));
         json_object_set_new(run, "sun_azimuth_deg", json_real(fmod((atan2(d.x, d.y) + s->north_rad) * DEG + 720, 360)));
+    }
+    if (run && g->estimated) {
+        double radiance[3];
+        ground_radiance(radiance, g);
+        json_object_set_new(run, "light", light_estimate_json(&g->estimate, radiance));
     }
     char *text = run ? json_dumps(run, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) : NULL;
     bool ok = path && text ? file_write_if_changed(path, text, strlen(text), err)

@@ -30,6 +30,10 @@ void generator_frame_name(char name[FRAME_NAME_SIZE], const struct generator *ge
 size_t generator_warning_count(const struct generator *generator);
 const char *generator_warning(const struct generator *generator, size_t i);
 
+/* What was found of the light in the photographs, a line each with a newline; empty where the scene gives it. The caller
+ * frees; NULL when memory ends. */
+char *generator_light_text(const struct generator *generator);
+
 /* Take the photographs of the frames first ... end-1 out of the video, those that are missing;
  * nothing to do for files. Call before generator_frame. */
 bool generator_prepare(struct generator *generator, const size_t *frames, size_t n, struct error *err);

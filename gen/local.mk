@@ -4,6 +4,15 @@ gen_libgen_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(TINYGLTF_CFLAGS) $(ASS
   $(ERFA_CFLAGS) $(YAML_CFLAGS) $(JANSSON_CFLAGS) $(READOSM_CFLAGS)
 gen_libgen_a_SOURCES = \
   %D%/detail.c %D%/detail.h \
+  %D%/estimate/estimate.c %D%/estimate/estimate.h %D%/estimate/estimate_impl.h \
+  %D%/estimate/estimate_gather.c \
+  %D%/estimate/estimate_report.c \
+  %D%/estimate/ground_view.c %D%/estimate/ground_view.h \
+  %D%/estimate/lit_ground.c %D%/estimate/lit_ground.h \
+  %D%/estimate/shade.c %D%/estimate/shade.h \
+  %D%/estimate/shadow_edges.c %D%/estimate/shadow_edges.h \
+  %D%/estimate/sun_check.c %D%/estimate/sun_check.h \
+  %D%/estimate/tones.c %D%/estimate/tones.h \
   %D%/frame.c %D%/frame.h %D%/frame_impl.h \
   %D%/frame_exposure.c \
   %D%/frame_manifest.c \
@@ -57,6 +66,7 @@ gen_libgen_a_SOURCES = \
   %D%/scene/scene_choice.c \
   %D%/scene/scene_keys.c %D%/scene/scene_keys.h \
   %D%/scene/scene_light.c \
+  %D%/scene/scene_north.c \
   %D%/scene/scene_pose.c %D%/scene/scene_pose.h \
   %D%/scene/scene_place.c \
   %D%/scene/scene_read.h \

@@ -77,6 +77,10 @@ static bool generate(const struct options *o, struct error *err)
     for (size_t i = 0; i < generator_warning_count(generator); i++)
         fprintf(stderr, "staffage-gen: warning: %s\n", generator_warning(generator, i));
 
+    char *light = generator_light_text(generator);
+    if (light) fputs(light, stdout);
+    free(light);
+
     size_t count = generator_frame_count(generator);
     results = calloc(count + 1, sizeof *results);
     entries = calloc(count + 1, sizeof *entries);

@@ -92,6 +92,21 @@ tests_gen_sunlit_test_SOURCES = %D%/gen/sunlit.c %D%/gen/place.h %D%/tap.h
 nodist_EXTRA_tests_gen_sunlit_test_SOURCES = dummy.cxx
 tests_gen_sunlit_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/estimate.test
+tests_gen_estimate_test_SOURCES = %D%/gen/estimate.c %D%/gen/craig.h %D%/gen/place.h %D%/tap.h
+nodist_EXTRA_tests_gen_estimate_test_SOURCES = dummy.cxx
+tests_gen_estimate_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/shade.test
+tests_gen_shade_test_SOURCES = %D%/gen/shade.c %D%/tap.h
+nodist_EXTRA_tests_gen_shade_test_SOURCES = dummy.cxx
+tests_gen_shade_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/north.test
+tests_gen_north_test_SOURCES = %D%/gen/north.c %D%/gen/craig.h %D%/tap.h
+nodist_EXTRA_tests_gen_north_test_SOURCES = dummy.cxx
+tests_gen_north_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/exposure.test
 tests_gen_exposure_test_SOURCES = %D%/gen/exposure.c %D%/tap.h
 nodist_EXTRA_tests_gen_exposure_test_SOURCES = dummy.cxx

@@ -57,7 +57,7 @@ void light_irradiance(double rgb[3], const struct light *light, struct vec3 norm
     for (int c = 0; c < 3; c++) rgb[c] += cosine * light->sun_color[c];
 }
 
-static bool sun_of_scene(struct vec3 *direction, const struct scene *scene, struct error *err)
+bool light_sun_direction(struct vec3 *direction, const struct scene *scene, struct error *err)
 {
     double azimuth = scene->sun_azimuth_rad, elevation = scene->sun_elevation_rad;
     if (scene->sun == SUN_BY_TIME) {
@@ -164,17 +164,30 @@ static bool fill(struct light *light, const struct scene *scene, struct error *e
     return true;
 }
 
+/* The light in the open stays as it is; of it, so much is the sky's, and the rest the sun's. */
+static void share_out(struct light *light, const double shade_to_lit[3])
+{
+    double sky[3];
+    for (int c = 0; c < 3; c++) {
+        sky[c] = shade_to_lit[c] * light->irradiance[c] * M_PI;
+        light->sun_color[c] = (1 - shade_to_lit[c]) * light->irradiance[c] / light->sun_direction.z;
+    }
+    scale_sky(&light->sky, sky);
+}
+
 bool light_create(struct light *light, const struct scene *scene, struct error *err)
 {
     struct light made = { 0 };
     bool directed = scene->sun == SUN_BY_TIME || scene->sun == SUN_GIVEN;
-    if ((directed && !sun_of_scene(&made.sun_direction, scene, err)) || !fill(&made, scene, err)) return false;
+    if ((directed && !light_sun_direction(&made.sun_direction, scene, err)) || !fill(&made, scene, err)) return false;
     struct image *sky = &made.sky;
     level_irradiance(made.irradiance, sky);
     for (int c = 0; c < 3; c++) {
         made.sun_color[c] *= scene->sun_scale;
         made.irradiance[c] += made.sun_color[c] * made.sun_direction.z;
     }
+
+    if (made.has_sun && scene->has_shade) share_out(&made, scene->shade_to_lit);
 
     double scale = 1 / luminance_of(made.irradiance);
     for (int c = 0; c < 3; c++) {

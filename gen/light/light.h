@@ -37,6 +37,10 @@ struct sky_light {
 bool light_create(struct light *light, const struct scene *scene, struct error *err);
 void light_release(struct light *light);
 
+/* Where the scene's sun stands, by time or given.
+ * Err: ERR_INPUT at the scene's sun: it stands below the horizon; what sun_position says */
+bool light_sun_direction(struct vec3 *direction, const struct scene *scene, struct error *err);
+
 /* The sky's radiance in a direction. */
 void light_sky_radiance(double color[3], const struct light *light, struct vec3 direction);
 

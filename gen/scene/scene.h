@@ -114,7 +114,7 @@ struct scene_occluder {
     struct source source;
 };
 
-enum sky_kind { SKY_CLEAR, SKY_OVERCAST, SKY_CIE, SKY_MAP };
+enum sky_kind { SKY_CLEAR, SKY_OVERCAST, SKY_CIE, SKY_MAP, SKY_AUTO };
 enum sun_kind { SUN_NONE, SUN_BY_TIME, SUN_GIVEN, SUN_IN_MAP };
 enum transfer_kind { TRANSFER_LAYERS, TRANSFER_RATIO, TRANSFER_THRESHOLD, TRANSFER_ALPHA };
 enum overwrite_side { OVERWRITE_ABOVE, OVERWRITE_BELOW };
@@ -128,6 +128,9 @@ struct scene_map {
     double north_px, middle_rad; /* the column of north; or the azimuth of the middle, clockwise from true north */
     struct source source, north_source;
 };
+
+/* Two pixels of the same surface, in the sun and in a shadow. */
+struct scene_mark { struct vec2 lit_px, shade_px; size_t shot; struct source source; };
 
 struct scene {
     char *path;                /* of the scene file */
@@ -149,7 +152,8 @@ struct scene {
     struct utc_time time_utc;  /* at time_s 0 of the shots */
     double north_rad;          /* azimuth of the world's +y axis, clockwise from true north */
     enum sun_kind sun;         /* BY_TIME: place and time are there; IN_MAP: the map shows whether there is one.
-                                  NONE under clouds, and in a map that is taken as it is; not under a clear sky */
+                                  NONE under clouds, and in a map that is taken as it is; not under a clear sky; with AUTO:
+                                  where it stands is not known */
     double sun_azimuth_rad, sun_elevation_rad; /* GIVEN: azimuth clockwise from true north */
     struct source sun_source;
 
@@ -158,11 +162,16 @@ struct scene {
     double ground_albedo[3];   /* linear */
     double ground_reflection;  /* 0..1, mirror share at normal incidence of a wet road; 0 dry */
 
-    enum sky_kind sky;
+    enum sky_kind sky;         /* AUTO: to be told by the photographs (gen/estimate/estimate.h) */
+    struct source light_source;
     double turbidity;          /* CLEAR */
     int cie_type;              /* CIE: 1 ... 15 */
     struct scene_map map;      /* MAP */
     double sun_scale;          /* multiplies the sun's irradiance; 1 */
+    bool has_shade;            /* CLEAR: the following says how much of the light in the open is the sky's, not the model */
+    double shade_to_lit[3];
+    struct scene_mark *marks;  /* AUTO */
+    size_t mark_count;
     double fill;               /* shadowless light on entities, as a share of the light in the open */
 
     char *osm;                 /* resolved path of the road map, or NULL */
@@ -172,7 +181,7 @@ struct scene {
     size_t path_count;
     struct scene_movers vehicles, people;
 
-    bool exposure_given, exposure_of_roads;
+    bool exposure_given, exposure_of_roads, exposure_of_ground; /* of none: the patch */
     double exposure;           /* photograph linear value per radiance unit */
     struct vec2 exposure_patch_px[2]; /* corners: top left, bottom right; inside the camera's picture */
     struct source exposure_source;

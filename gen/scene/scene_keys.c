@@ -18,7 +18,9 @@ NAMES(world_direction_name, [WORLD_EAST] = "east", [WORLD_WEST] = "west", [WORLD
       [WORLD_SOUTH] = "south", [WORLD_UP] = "up", [WORLD_DOWN] = "down")
 NAMES(model_axis_name, [AXIS_POS_X] = "+x", [AXIS_NEG_X] = "-x", [AXIS_POS_Y] = "+y", [AXIS_NEG_Y] = "-y",
       [AXIS_POS_Z] = "+z", [AXIS_NEG_Z] = "-z", "x", "y", "z")
-NAMES(sky_name, [SKY_CLEAR] = "clear", [SKY_OVERCAST] = "overcast", [SKY_CIE] = "cie", [SKY_MAP] = "map")
+NAMES(sky_name, [SKY_CLEAR] = "clear", [SKY_OVERCAST] = "overcast", [SKY_CIE] = "cie", [SKY_MAP] = "map",
+      [SKY_AUTO] = "auto")
+NAMES(auto_name, "auto")
 NAMES(sun_name, "auto", "none")
 NAMES(trait_name, "auto", "none")
 NAMES(transfer_name, [TRANSFER_LAYERS] = "layers", [TRANSFER_RATIO] = "ratio", [TRANSFER_THRESHOLD] = "threshold",
@@ -106,9 +108,13 @@ static const struct schema_key keys[] = {
     { "place.longitude_deg", TYPE_NUMBER, "deg", .presence = REQUIRED, LIMITS(-180, 180) },
     { "place.height_m", TYPE_NUMBER, "m", .preset = "0", LIMITS(-1000, 100000) },
     { "north_deg", TYPE_NUMBER, "deg", .preset = "0", LIMITS(-360, 360) },
+    { "north", TYPE_MAPPING, .presence = OPTIONAL },
+    { "north.foot_px", TYPE_NUMBERS, "px", .presence = REQUIRED, COUNT(2), LIMITS(0, PIXELS_MAX) },
+    { "north.tip_px", TYPE_NUMBERS, "px", .presence = REQUIRED, COUNT(2), LIMITS(0, PIXELS_MAX) },
+    { "north.shot", TYPE_INTEGER, .preset = "0", LIMITS(0, FRAME_MAX) },
     { "time", TYPE_TIME, .presence = OPTIONAL },
 
-    { "light", TYPE_MAPPING, .presence = REQUIRED },
+    { "light", TYPE_MAPPING | TYPE_CHOICE, .presence = REQUIRED, .choice = auto_name },
     { "light.sky", TYPE_CHOICE, .presence = REQUIRED, .choice = sky_name },
     { "light.turbidity", TYPE_NUMBER, .preset = "2.5", LIMITS(1.7, 10) },
     { "light.cie_type", TYPE_INTEGER, LIMITS(1, 15) },
@@ -120,6 +126,11 @@ static const struct schema_key keys[] = {
     { "light.sun.azimuth_deg", TYPE_NUMBER, "deg", .presence = REQUIRED, LIMITS(-360, 360) },
     { "light.sun.elevation_deg", TYPE_NUMBER, "deg", .presence = REQUIRED, ABOVE(0, 90) },
     { "light.sun_scale", TYPE_NUMBER, .preset = "1", LIMITS(0, INFINITY) },
+    { "light.shade_to_lit", TYPE_NUMBERS, COUNT(3), ABOVE(0, 0.99) },
+    { "light.shadows", TYPE_ITEMS, .preset = "[]" },
+    { "light.shadows[].lit_px", TYPE_NUMBERS, "px", .presence = REQUIRED, COUNT(2), LIMITS(0, PIXELS_MAX) },
+    { "light.shadows[].shade_px", TYPE_NUMBERS, "px", .presence = REQUIRED, COUNT(2), LIMITS(0, PIXELS_MAX) },
+    { "light.shadows[].shot", TYPE_INTEGER, .preset = "0", LIMITS(0, FRAME_MAX) },
     { "light.fill", TYPE_NUMBER, .preset = "0", LIMITS(0, 1) },
 
     { "ground", TYPE_MAPPING, SECTION },
@@ -151,7 +162,7 @@ static const struct schema_key keys[] = {
     { "paths[].points_px", TYPE_ROWS, "px", .presence = ONE_OF, .count_min = 2, .columns = 2 },
     { "paths[].shot", TYPE_INTEGER, .preset = "0", LIMITS(0, FRAME_MAX) },
 
-    { "exposure", TYPE_MAPPING, .presence = REQUIRED },
+    { "exposure", TYPE_MAPPING | TYPE_CHOICE, .presence = OPTIONAL, .choice = auto_name },
     { "exposure.roads", TYPE_BOOLEAN, .presence = ONE_OF },
     { "exposure.patch_px", TYPE_INTEGERS, "px", .presence = ONE_OF, COUNT(4), LIMITS(0, PIXELS_MAX) },
     { "exposure.value", TYPE_NUMBER, .presence = ONE_OF, ABOVE(0, INFINITY) },

@@ -2,6 +2,7 @@
 #include "gen/scene/scene_keys.h"
 #include "gen/scene/scene_read.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* A sky without a sun to see. In: what: the sky, for errors */
@@ -74,9 +75,64 @@ static bool read_map(const struct reading *r, const struct yaml_node *node)
     return scene_copy_path(r, &scene->map.file, yaml_get(map, "file"));
 }
 
+/* Marks in the pictures of shots. */
+static bool read_marks(const struct reading *r, const struct yaml_node *list)
+{
+    struct scene *scene = r->scene;
+    scene->marks = calloc(list->count + 1, sizeof *scene->marks);
+    if (!scene->marks) return out_of_memory(r);
+    for (size_t i = 0; i < list->count; i++) {
+        const struct yaml_node *item = list->items[i], *lit = yaml_get(item, "lit_px"), *shade = yaml_get(item, "shade_px");
+        struct scene_mark *mark = &scene->marks[i];
+        double q[4];
+        schema_numbers(q, 2, lit);
+        schema_numbers(q + 2, 2, shade);
+        *mark = (struct scene_mark){ { q[0], q[1] }, { q[2], q[3] }, (size_t)number_at(item, "shot"), source_of(item) };
+        if (!scene_check_pixel(r, mark->lit_px, mark->shot, lit, "light.shadows: lit_px") ||
+            !scene_check_pixel(r, mark->shade_px, mark->shot, shade, "light.shadows: shade_px"))
+            return false;
+        if (!scene->video && !scene->shots[mark->shot].photograph)
+            return FAIL(r, item, "light.shadows: shot %zu has no photograph: it is a new view", mark->shot);
+        scene->mark_count++;
+    }
+    return true;
+}
+
+/* What the photographs are to tell. In: node: a mapping, or "auto" alone */
+static bool read_auto(const struct reading *r, const struct yaml_node *node)
+{
+    struct scene *scene = r->scene;
+    const struct yaml_node *sun = yaml_get(node, "sun"), *marks = yaml_get(node, "shadows"), *scale = yaml_get(node, "sun_scale");
+    bool photograph = scene->video != NULL;
+    for (size_t i = 0; i < scene->shot_count; i++) photograph = photograph || scene->shots[i].photograph;
+    if (!photograph) return FAIL(r, node, "light: \"auto\" is told by a photograph, and all shots are new views: use \"sky: clear\" or \"overcast\"");
+    if (scale && !scale->is_default) return FAIL(r, scale, "light.sun_scale: \"sky: auto\" finds it by itself: remove it, or use \"sky: clear\"");
+    if (sun && sun->kind == YAML_MAPPING) {
+        if (!read_sun(r, node, "")) return false;
+    } else if (sun && !strcmp(sun->text, "none")) {
+        return FAIL(r, sun, "light.sun: where there is none, it is \"sky: overcast\"");
+    } else {
+        scene->sun = scene->has_place && scene->has_time ? SUN_BY_TIME : SUN_NONE;
+    }
+    return !marks || read_marks(r, marks);
+}
+
+static bool read_shade(const struct reading *r, const struct yaml_node *node)
+{
+    const struct yaml_node *shade = yaml_get(node, "shade_to_lit");
+    if (!shade) return true;
+    r->scene->has_shade = true;
+    schema_numbers(r->scene->shade_to_lit, 3, shade);
+    return refuse_sun_scale(r, node, "and shade_to_lit say the same: remove one");
+}
+
 bool scene_read_light(const struct reading *r, const struct yaml_node *node)
 {
     struct scene *scene = r->scene;
+    scene->light_source = scene->sun_source = source_of(node);
+    scene->sun_scale = 1;
+    scene->sky = SKY_AUTO;
+    if (node->kind != YAML_MAPPING) return read_auto(r, node);
     scene->sky = (enum sky_kind)schema_choice(sky_name, yaml_get(node, "sky"));
     scene->turbidity = number_at(node, "turbidity");
     scene->sun_scale = number_at(node, "sun_scale");
@@ -85,8 +141,10 @@ bool scene_read_light(const struct reading *r, const struct yaml_node *node)
 
     static const struct { const char *key; enum sky_kind sky; const char *why; } only[] = {
         { "turbidity", SKY_CLEAR, "has a meaning under a clear sky only: remove it, or use \"sky: clear\"" },
+        { "shade_to_lit", SKY_CLEAR, "has a meaning under a clear sky only: remove it, or use \"sky: clear\"" },
         { "cie_type", SKY_CIE, "means a standard sky: remove it, or use \"sky: cie\"" },
         { "map", SKY_MAP, "means a measured sky: remove it, or use \"sky: map\"" },
+        { "shadows", SKY_AUTO, "are marked for \"sky: auto\": remove them, or use it" },
     };
     for (size_t i = 0; i < sizeof only / sizeof *only; i++) {
         const struct yaml_node *given = yaml_get(node, only[i].key);
@@ -94,7 +152,8 @@ bool scene_read_light(const struct reading *r, const struct yaml_node *node)
             return FAIL(r, given, "light.%s: %s", only[i].key, only[i].why);
     }
     switch (scene->sky) {
-    case SKY_CLEAR: return read_sun(r, node, "a clear sky");
+    case SKY_AUTO: return read_auto(r, node);
+    case SKY_CLEAR: return read_sun(r, node, "a clear sky") && read_shade(r, node);
     case SKY_CIE: return read_cie(r, node);
     case SKY_MAP: return read_map(r, node);
     case SKY_OVERCAST:

@@ -76,6 +76,13 @@ bool scene_read_ground(const struct reading *r, const struct yaml_node *node)
 bool scene_read_exposure(const struct reading *r, const struct yaml_node *node)
 {
     struct scene *scene = r->scene;
+    if (!node && scene->sky != SKY_AUTO)
+        return FAIL(r, r->root, "exposure: is missing: {patch_px}, {roads: true}, {value}, or auto");
+    if (!node || node->kind != YAML_MAPPING) {
+        scene->exposure_source = node ? source_of(node) : scene->light_source;
+        scene->exposure_of_ground = scene->white_balance = true;
+        return true;
+    }
     const struct yaml_node *value = yaml_get(node, "value"), *patch = yaml_get(node, "patch_px");
     const struct yaml_node *balance = yaml_get(node, "white_balance"), *roads = yaml_get(node, "roads");
     scene->exposure_source = source_of(patch ? patch : value ? value : roads);

@@ -40,6 +40,8 @@ bool scene_refuse_given(const struct reading *r, const struct yaml_node *mapping
 
 /* After place and time: photographs and camera, or cameras and shots. */
 bool scene_read_shots(const struct reading *r, const struct yaml_node *root);
+/* After the ground: north, where a shadow tells it. */
+bool scene_read_north(const struct reading *r, const struct yaml_node *root);
 bool scene_read_light(const struct reading *r, const struct yaml_node *node);
 bool scene_read_static(const struct reading *r, const struct yaml_node *root);
 bool scene_read_ground(const struct reading *r, const struct yaml_node *node);

@@ -70,7 +70,7 @@ static void add_type(struct words *w, const struct schema_key *key, enum schema_
         break;
     case TYPE_BOOLEAN: words_add(w, "true or false"); break;
     case TYPE_CHOICE:
-        words_add(w, "one of ");
+        if (key->choice(1)) words_add(w, "one of ");
         add_choices(w, key);
         break;
     case TYPE_TEXT:

@@ -429,7 +429,7 @@ static void text_is_not_guessed_to_be_something_else(void)
         { "? [seed]\n: 1\n", "a key must be plain text" },
         { "quality: high\n\"quality\": draft\n", "key \"quality\" is here for the second time (first in line 1): keep one" },
         { "seed.x: 1\n", "unknown key \"seed.x\" (known here: staffage, photographs, camera, shots, cameras, place, north_deg, "
-                         "time, light, ground, static, roads, paths, exposure, models, materials, entities, occluders, "
+                         "north, time, light, ground, static, roads, paths, exposure, models, materials, entities, occluders, "
                          "traffic, weather, lens, transfer, labels, quality, seed)" },
         { "photographs: {files: [street.jpg, street-wet.jpg]}\nplace: {latitude_deg: 46, longitude_deg: -92}\n"
           "paths: [{name: a, use: people, width_m: 2, points_m: [[0, 0], [9, 0]]}]\n"
@@ -451,6 +451,16 @@ static void text_is_not_guessed_to_be_something_else(void)
         { "light: {sky: map, map: {file: sky.exr, north_px: 1}, sun: none, sun_scale: 2}\n",
           "light.sun_scale: has no meaning where the map is taken without a sun" },
         { "light: {sky: overcast, cie_type: 2}\n", "light.cie_type: means a standard sky: remove it, or use \"sky: cie\"" },
+        { "light: {sky: auto, sun_scale: 2}\n",
+          "light.sun_scale: \"sky: auto\" finds it by itself: remove it, or use \"sky: clear\"" },
+        { "light: {sky: auto, sun: none}\n", "light.sun: where there is none, it is \"sky: overcast\"" },
+        { "light: {sky: overcast, shade_to_lit: [0.1, 0.1, 0.2]}\n",
+          "light.shade_to_lit: has a meaning under a clear sky only: remove it, or use \"sky: clear\"" },
+        { "light: {sky: clear, sun: {azimuth_deg: 0, elevation_deg: 9}, shade_to_lit: [0.1, 0.1, 0.2], sun_scale: 2}\n",
+          "light.sun_scale: and shade_to_lit say the same: remove one" },
+        { "light: {sky: overcast, shadows: [{lit_px: [1, 1], shade_px: [2, 2]}]}\n",
+          "light.shadows: are marked for \"sky: auto\": remove them, or use it" },
+        { "light: aut\n", "unknown light \"aut\" (did you mean \"auto\"?)" },
         { "lens: {focus_m: 3}\n", "lens: defocus_px and focus_m go together" },
         { "lens: {grain: 101}\n", "lens.grain: expected number from 0 to 100 or one of auto, none, found 101" },
         { "lens: {grain: aut}\n", "lens: unknown grain \"aut\" (did you mean \"auto\"?)" },

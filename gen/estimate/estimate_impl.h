@@ -1,0 +1,48 @@
+/* An estimate while it is made: for its own files. */
+#ifndef STAFFAGE_GEN_ESTIMATE_IMPL_H
+#define STAFFAGE_GEN_ESTIMATE_IMPL_H
+
+#include "gen/estimate/estimate.h"
+#include "gen/estimate/ground_view.h"
+#include "gen/estimate/lit_ground.h"
+#include "gen/estimate/tones.h"
+
+/* What all photographs together say. */
+struct gathered {
+    bool by_place;                /* a mesh casts shadows: sides and told are there */
+    struct vec3 sun;              /* then */
+    struct shade_sample *samples;
+    struct shadow_sides *sides;   /* (n) */
+    int8_t *told;                 /* (n) 1: the place casts that shadow, -1: the other way round, 0: neither */
+    bool *on_lit;                 /* (n) the brighter side is the ground's commonest surface in the light */
+    size_t n, room;
+    struct shade_sample *marks;   /* (scene.mark_count) */
+    size_t mark_count;
+};
+
+/* A photograph that is being looked at. */
+struct looked_at {
+    const struct stage *stage;
+    const struct scene_shot *shot;
+    size_t index;                 /* of the photograph */
+    struct camera camera;         /* at its size */
+    struct tones tones;
+    struct ground_view view;
+    struct lit_ground lit;
+};
+
+/* In: sun: unit, or NULL where it is not known */
+bool look_at(struct looked_at *l, const struct stage *stage, const struct estimate_photograph *photograph, size_t index,
+             const struct vec3 *sun, struct error *err);
+/* Also after a failure. */
+void looked_at_release(struct looked_at *l);
+
+/* Add a photograph's edges: those of the ground's commonest surface; where a mesh casts shadows, those of any, with what it
+ * casts there. */
+bool gather_edges(struct gathered *g, const struct looked_at *l, struct error *err);
+/* Add the pairs that are marked in a photograph.
+ * Err: ERR_INPUT at the mark: clipped, or no shade */
+bool gather_marks(struct gathered *g, const struct looked_at *l, size_t shot, struct error *err);
+void gathered_release(struct gathered *g);
+
+#endif

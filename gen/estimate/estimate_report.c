@@ -1,0 +1,107 @@
+#include "gen/estimate/estimate.h"
+
+#include "lib/file.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const char *const from_name[] = { "marks", "mesh", "photograph" };
+
+static double exposure_of(const struct light_estimate *e, const double radiance[3], int c)
+{
+    return e->lit[c] > 0 && radiance[c] > 0 ? e->lit[c] / radiance[c] : 0;
+}
+
+static char *shade_text(const struct light_estimate *e)
+{
+    const struct shade *s = &e->shade;
+    static const double weight[3] = { 0.2126, 0.7152, 0.0722 };
+    double in_shade = 0, variance = 0;
+    for (int c = 0; c < 3; c++) {
+        in_shade += weight[c] * s->ratio[c];
+        variance += weight[c] * s->sigma[c];
+    }
+    /* Sun over sky is (1 - r) / r; the channels' errors go together. */
+    double sun = (1 - in_shade) / in_shade, sun_sigma = variance / (in_shade * in_shade);
+    char *from = e->from == SHADE_FROM_MARKS ? string_format("%zu marked pair%s", s->edges, s->edges == 1 ? "" : "s")
+                                             : string_format("%zu pixels of shadow edges in %zu places%s", s->edges, s->places,
+                                                             e->from == SHADE_FROM_MESH ? ", which the mesh casts" : "");
+    char *text = from ? string_format("light: clear, sure to %.0f %%; sun to sky %.2f +- %.2f on level ground, shade to lit R %.3f +- %.3f "
+                                      "G %.3f +- %.3f B %.3f +- %.3f (from %s); sky of turbidity %.1f\n",
+                                      100 * e->certainty, sun, sun_sigma, s->ratio[0], s->sigma[0], s->ratio[1], s->sigma[1],
+                                      s->ratio[2], s->sigma[2], from, e->turbidity) : NULL;
+    free(from);
+    return text;
+}
+
+static char *clouds_text(const struct light_estimate *e)
+{
+    return string_format("light: overcast, sure to %.0f %%: %s; where there is sun, mark a pair of pixels under light.shadows, or say "
+                         "\"sky: clear\"\n", 100 * e->certainty,
+                         e->shade.places ? "too little of what has an edge looks like a shadow" : "nothing on the ground looks like a shadow");
+}
+
+static char *check_text(const struct light_estimate *e)
+{
+    const struct sun_check *c = &e->check;
+    if (!e->clear || !e->has_check) return string_format("%s", "");
+    return string_format("light: by the shadows the sun stands %.1f +- %.1f deg %s and %.1f +- %.1f deg %s%s: %.0f %% of %zu edges agree with the "
+                         "mesh's shadows, there %.0f %%\n", fabs(c->azimuth_off_deg), c->azimuth_sigma_deg,
+                         c->azimuth_off_deg < 0 ? "anticlockwise" : "clockwise", fabs(c->elevation_off_deg), c->elevation_sigma_deg,
+                         c->elevation_off_deg < 0 ? "lower" : "higher", c->at_limit ? " or more" : "", 100 * c->agree, c->edges, 100 * c->agree_there);
+}
+
+static char *exposure_text(const struct light_estimate *e, const double radiance[3])
+{
+    if (!(e->lit[0] > 0)) return string_format("%s", "");
+    double k[3], sigma[3];
+    for (int c = 0; c < 3; c++) {
+        k[c] = exposure_of(e, radiance, c);
+        sigma[c] = k[c] * e->lit_sigma[c] / e->lit[c];
+    }
+    return string_format("light: exposure R %.3f +- %.3f G %.3f +- %.3f B %.3f +- %.3f, if ground.albedo is right\n", k[0], sigma[0], k[1], sigma[1],
+                         k[2], sigma[2]);
+}
+
+char *light_estimate_text(const struct light_estimate *e, const double ground_radiance[3])
+{
+    char *light = e->clear ? shade_text(e) : clouds_text(e), *check = check_text(e), *exposure = exposure_text(e, ground_radiance);
+    char *text = light && check && exposure ? string_format("%s%s%s", light, check, exposure) : NULL;
+    free(light);
+    free(check);
+    free(exposure);
+    return text;
+}
+
+json_t *light_estimate_json(const struct light_estimate *e, const double radiance[3])
+{
+    const struct shade *s = &e->shade;
+    json_t *json = json_pack("{s:s, s:f, s:s, s:i}", "sky", e->clear ? "clear" : "overcast", "certainty", e->certainty, "from",
+                             from_name[e->from], "photographs", (int)e->photographs);
+    if (!json) return NULL;
+    if (s->places) {
+        json_object_set_new(json, "shade_to_lit", json_pack("[f,f,f]", s->ratio[0], s->ratio[1], s->ratio[2]));
+        json_object_set_new(json, "shade_to_lit_sigma", json_pack("[f,f,f]", s->sigma[0], s->sigma[1], s->sigma[2]));
+        json_object_set_new(json, "edges", json_integer((json_int_t)s->edges));
+        json_object_set_new(json, "places", json_integer((json_int_t)s->places));
+        json_object_set_new(json, "share", json_real(s->share));
+    }
+    if (e->clear) json_object_set_new(json, "turbidity", json_real(e->turbidity));
+    if (e->clear && e->has_check) {
+        const struct sun_check *c = &e->check;
+        json_object_set_new(json, "sun_check", json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:i, s:b}",
+            "azimuth_off_deg", c->azimuth_off_deg, "azimuth_sigma_deg", c->azimuth_sigma_deg,
+            "elevation_off_deg", c->elevation_off_deg, "elevation_sigma_deg", c->elevation_sigma_deg,
+            "agree", c->agree, "agree_there", c->agree_there, "edges", (int)c->edges, "at_limit", (int)c->at_limit));
+    }
+    if (e->lit[0] > 0) {
+        json_t *k = json_array(), *sigma = json_array();
+        for (int c = 0; c < 3; c++) {
+            json_array_append_new(k, json_real(exposure_of(e, radiance, c)));
+            json_array_append_new(sigma, json_real(exposure_of(e, radiance, c) * e->lit_sigma[c] / e->lit[c]));
+        }
+        json_object_set_new(json, "exposure", k);
+        json_object_set_new(json, "exposure_sigma", sigma);
+    }
+    return json;
+}
