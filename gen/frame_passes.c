@@ -55,6 +55,7 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
     struct model_include *includes = calloc(f->moment.n + 1, sizeof *includes);
     size_t n = 0;
     char place[64];
+    struct pass_surroundings surroundings;
     bool ok = (entities && receivers && includes) || error_set(err, ERR_MEMORY, "no memory for a frame");
     for (size_t i = 0; ok && i < f->moment.n; i++) {
         if (!f->matters[i]) continue;
@@ -70,9 +71,9 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
         .scene = f->scene, .sky_map = c->sky_map, .light = c->light, .view = *view,
         .world_from_camera = f->shot->world_from_camera, .entities = entities, .includes = includes, .entity_count = n,
         .ground = f->scene->ground, .receivers = receivers, .receiver_count = n,
-        .place_include = f->stage->mesh ? place : NULL,
+        .place_include = f->stage->mesh ? place : NULL, .surroundings = &surroundings,
     };
-    ok = ok && (!f->stage->mesh || write_place(place, &passes.ground, f, err)) && passes_write(f->folder, &passes, err);
+    ok = ok && frame_write_surroundings(&surroundings, f, err) && (!f->stage->mesh || write_place(place, &passes.ground, f, err)) && passes_write(f->folder, &passes, err);
     free(entities);
     free(receivers);
     free(includes);

@@ -17,11 +17,16 @@ gen_libgen_a_SOURCES = \
   %D%/frame_exposure.c \
   %D%/frame_manifest.c \
   %D%/frame_passes.c \
+  %D%/frame_surroundings.c \
   %D%/generator.c %D%/generator.h \
   %D%/light/daylight.c %D%/light/daylight.h \
   %D%/light/exposure.c %D%/light/exposure.h \
   %D%/light/light.c %D%/light/light.h \
   %D%/light/measured_sky.c %D%/light/measured_sky.h \
+  %D%/light/orthophoto.c %D%/light/orthophoto.h \
+  %D%/light/panorama.c %D%/light/panorama.h \
+  %D%/light/push_pull.c %D%/light/push_pull.h \
+  %D%/light/seen.c %D%/light/seen.h \
   %D%/light/sky_form.c %D%/light/sky_form.h \
   %D%/light/sky_image.h \
   %D%/light/sun.c %D%/light/sun.h \

@@ -84,7 +84,9 @@ static void write_light(struct sdl *sdl, const struct passes *p, const struct pa
         sdl_declare_number(sdl, "Sun_Tangent", tan(SUN_RADIUS_RAD));
         sdl_include(sdl, "sun.inc");
     }
-    sdl_declare_string(sdl, "Sky_Map", p->sky_map);
+    const struct pass_surroundings *around = lights == LIGHTS_RADIOSITY ? p->surroundings : NULL;
+    sdl_declare_string(sdl, "Sky_Map", around && around->sky_map[0] ? around->sky_map : p->sky_map);
+    if (around && around->sky_map[0]) sdl_declare_string(sdl, "Mirrored_Sky_Map", around->mirrored_sky_map);
     if (lights == LIGHTS_RADIOSITY || p->scene->ground_reflection > 0) sdl_include(sdl, "sky.inc");
     if (lights == LIGHTS_RADIOSITY) return;
     size_t n = settings->sky_lights;
@@ -160,7 +162,8 @@ static void write_receivers(struct sdl *sdl, const struct passes *p)
 static void write_ground(struct sdl *sdl, const struct passes *p, bool receivers)
 {
     const struct scene *scene = p->scene;
-    sdl_declare_color(sdl, "Ground_Albedo", scene->ground_albedo);
+    const struct pass_surroundings *around = receivers ? NULL : p->surroundings;
+    sdl_declare_color(sdl, "Ground_Albedo", around ? around->ground_albedo : scene->ground_albedo);
     sdl_declare_number(sdl, "Ground_Reflection", scene->ground_reflection);
     sdl_include(sdl, "ground.inc");
     sdl_declare_number(sdl, "Has_Place", p->place_include != NULL);
@@ -174,6 +177,12 @@ static void write_ground(struct sdl *sdl, const struct passes *p, bool receivers
     sdl_declare_color(sdl, "Ground_Sky", sky);
     sdl_declare_number(sdl, "Fill", scene->fill);
     sdl_declare_color(sdl, "Open_Light", p->light->irradiance);
+    sdl_declare_number(sdl, "Has_Orthophoto", around != NULL);
+    if (!around) return;
+    sdl_declare_string(sdl, "Orthophoto", around->orthophoto);
+    sdl_declare_string(sdl, "Orthophoto_Coarse", around->orthophoto_coarse);
+    sdl_declare_vector(sdl, "Orthophoto_Low", vec3(around->low_m.x, around->low_m.y, 0));
+    sdl_declare_vector(sdl, "Orthophoto_High", vec3(around->high_m.x, around->high_m.y, 1));
 }
 
 static bool write_pass(const char *frame_folder, const char *name, const struct passes *p, bool entities,

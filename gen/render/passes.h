@@ -34,6 +34,15 @@ bool pass_lights(struct vec3 **towards, size_t *n, const struct scene *scene, co
 #define SKY_MAP_SIZE 40
 bool sky_map_write(char path[SKY_MAP_SIZE], const char *out_folder, const struct light *light, struct error *err);
 
+/* What is round the entities in its own colours, in files: paths relative to the output folder. */
+#define SURROUNDINGS_PATH_SIZE 64
+struct pass_surroundings {
+    char orthophoto[SURROUNDINGS_PATH_SIZE], orthophoto_coarse[SURROUNDINGS_PATH_SIZE];
+    struct vec2 low_m, high_m;
+    double ground_albedo[3];        /* beyond the orthophoto */
+    char sky_map[SURROUNDINGS_PATH_SIZE], mirrored_sky_map[SURROUNDINGS_PATH_SIZE]; /* "": the light's sky */
+};
+
 /* All that the three scenes of a frame say. */
 struct passes {
     const struct scene *scene;
@@ -47,6 +56,7 @@ struct passes {
     struct plane ground;            /* what receives, on a plane; else a plane below all that is in the place's include */
     const struct receiver *receivers; /* on a plane */
     size_t receiver_count;
+    const struct pass_surroundings *surroundings; /* of the object pass; NULL: bare ground of the scene's albedo under the sky */
     const char *place_include;      /* of place_include_write, relative to the output folder; NULL: the ground is a plane */
 };
 

@@ -1,0 +1,107 @@
+#include "gen/frame_impl.h"
+
+#include "gen/light/orthophoto.h"
+#include "gen/light/panorama.h"
+#include "gen/light/seen.h"
+#include "lib/file.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define BODY_M 1.0 /* height over the ground at which entities look round */
+
+/* Among the entities, by how much of each is seen: one that comes into the picture moves it little by little. */
+static struct vec3 among_entities(const struct frame *f)
+{
+    struct vec3 sum = { 0, 0, 0 };
+    double weights = 0;
+    for (size_t i = 0; i < f->moment.n; i++) {
+        if (!f->matters[i]) continue;
+        double weight = (double)f->labels.entities[i].pixels_visible + 1;
+        sum = vec3_add(sum, vec3_scale(f->moment.entities[i].world_from_entity.translation, weight));
+        weights += weight;
+    }
+    return vec3_add(vec3_scale(sum, 1 / weights), vec3(0, 0, BODY_M));
+}
+
+static struct seen seen_of(const struct frame *f)
+{
+    const struct scene *s = f->scene;
+    struct seen seen = { .picture = &f->picture, .camera = f->camera, .world_from_camera = f->shot->world_from_camera };
+    memcpy(seen.k, f->exposure.k, sizeof seen.k);
+    /* A new view has no mist in it yet. */
+    if (s->has_mist && f->photograph[0]) seen.visibility_m = s->visibility_m;
+    memcpy(seen.haze, s->haze, sizeof seen.haze);
+    if (!f->stage->mesh && f->labels.receiver.data) seen.unhidden = &f->labels.receiver;
+    seen_init(&seen);
+    return seen;
+}
+
+/* Out: path (SURROUNDINGS_PATH_SIZE) relative to the output folder */
+static bool write(char *path, const struct frame *f, const char *name, const struct image *image, struct error *err)
+{
+    snprintf(path, SURROUNDINGS_PATH_SIZE, "frames/%s/%s", f->name, name);
+    char *file = string_format("%s/%s", f->folder, name);
+    bool ok = (file || error_set(err, ERR_MEMORY, "no memory for a path")) && image_write(file, image, err);
+    free(file);
+    return ok;
+}
+
+static bool write_ground(struct pass_surroundings *out, double color_gain[3], const struct frame *f, const struct seen *seen,
+                         struct error *err)
+{
+    struct entity *entities = calloc(f->moment.n + 1, sizeof *entities);
+    if (!entities) return error_set(err, ERR_MEMORY, "no memory for a frame");
+    struct orthophoto_input in = {
+        .seen = seen, .light = f->context->light, .ground = f->stage->mesh ? NULL : &f->scene->ground,
+        .ground_reflection = f->scene->ground_reflection, .place = f->stage->mesh, .place_depth = &f->labels.place_depth,
+        .entities = entities,
+    };
+    memcpy(in.ground_albedo, f->scene->ground_albedo, sizeof in.ground_albedo);
+    for (size_t i = 0; i < f->moment.n; i++)
+        if (f->matters[i]) entities[in.n++] = f->moment.entities[i];
+    struct orthophoto ground;
+    bool ok = orthophoto_create(&ground, &in, err);
+    free(entities);
+    if (!ok) return false;
+    ok = write(out->orthophoto, f, "orthophoto.png", &ground.mirrored, err) &&
+         write(out->orthophoto_coarse, f, "orthophoto-coarse.png", &ground.bouncing, err);
+    out->low_m = ground.low_m;
+    out->high_m = ground.high_m;
+    memcpy(out->ground_albedo, ground.elsewhere, sizeof out->ground_albedo);
+    memcpy(color_gain, ground.color_gain, sizeof ground.color_gain);
+    orthophoto_release(&ground);
+    return ok;
+}
+
+/* A measured sky has what stands round it. */
+static bool write_sky(struct pass_surroundings *out, const double color_gain[3], const struct frame *f, const struct seen *seen,
+                      struct error *err)
+{
+    if (f->scene->sky == SKY_MAP) return true;
+    struct vec3 from = among_entities(f), eye = f->shot->world_from_camera.translation;
+    double ground = f->stage->mesh ? from.z - BODY_M : plane_height(&f->scene->ground, eye.x, eye.y);
+    struct panorama_input in = {
+        .seen = seen, .light = f->context->light, .from_m = from, .height_m = eye.z - ground, .place = f->stage->mesh,
+        .place_depth = &f->labels.place_depth, .color_gain = { color_gain[0], color_gain[1], color_gain[2] },
+    };
+    struct panorama panorama;
+    if (!panorama_create(&panorama, &in, err)) return false;
+    bool ok = write(out->sky_map, f, "sky.exr", &panorama.lighting, err) &&
+              write(out->mirrored_sky_map, f, "panorama.exr", &panorama.mirrored, err);
+    panorama_release(&panorama);
+    return ok;
+}
+
+bool frame_write_surroundings(struct pass_surroundings *surroundings, struct frame *f, struct error *err)
+{
+    struct pass_surroundings out = { .sky_map = "" };
+    double color_gain[3] = { 0, 0, 0 };
+    if (!frame_read_picture(f, err)) return false;
+    struct seen seen = seen_of(f);
+    if (!write_ground(&out, color_gain, f, &seen, err) || !write_sky(&out, color_gain, f, &seen, err)) return false;
+    *surroundings = out;
+    return true;
+}

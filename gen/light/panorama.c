@@ -1,0 +1,192 @@
+#include "gen/light/panorama.h"
+
+#include "gen/light/sky_image.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { WIDTH = 1024, FINE = 2 };   /* FINE: samples along a side of a pixel that shows something of the picture */
+#define STEP_RAD (0.5 * M_PI / 180)
+#define TOP_SHARE 0.7 /* higher up the sides of a picture show less */
+#define OFF_PLACE_M 0.3
+
+/* The circle on which stands what the picture shows beyond its ground. */
+struct wall {
+    bool there;
+    double radius_m, forward_rad;  /* azimuth, from +x towards +y, of the camera's look */
+    double left_rad, right_rad;    /* how far to both sides the picture shows it, from the height of a body to near its top */
+};
+
+static struct vec3 wall_point(const struct panorama_input *in, const struct wall *wall, double aside_rad, double z_m)
+{
+    struct vec3 eye = in->seen->world_from_camera.translation;
+    double turn = wall->forward_rad + aside_rad;
+    return vec3(eye.x + wall->radius_m * cos(turn), eye.y + wall->radius_m * sin(turn), z_m);
+}
+
+static bool shown(const struct panorama_input *in, const struct wall *wall, double aside_rad, double z_m)
+{
+    struct vec2 q;
+    return seen_project(in->seen, &q, wall_point(in, wall, aside_rad, z_m)) && seen_trust(in->seen, q) > 0.5;
+}
+
+static double shown_to_side(const struct panorama_input *in, const struct wall *wall, double sign, double top_m)
+{
+    double aside = 0;
+    while (aside < M_PI && shown(in, wall, sign * aside, in->from_m.z) && shown(in, wall, sign * aside, top_m)) aside += STEP_RAD;
+    return aside - STEP_RAD;
+}
+
+static struct wall raise_wall(const struct panorama_input *in)
+{
+    struct vec3 forward = mat3_column(in->seen->world_from_camera.rotation, 2), eye = in->seen->world_from_camera.translation;
+    struct wall wall = { .forward_rad = atan2(forward.y, forward.x) };
+    double away = hypot(in->from_m.x - eye.x, in->from_m.y - eye.y), top = in->from_m.z;
+    wall.radius_m = fmax(seen_ground_reach(in->seen, in->height_m), 1.25 * away);
+    while (top < in->from_m.z + wall.radius_m && shown(in, &wall, 0, top)) top += wall.radius_m * STEP_RAD;
+    top = in->from_m.z + TOP_SHARE * (top - in->from_m.z);
+    wall.left_rad = shown_to_side(in, &wall, 1, top);
+    wall.right_rad = shown_to_side(in, &wall, -1, top);
+    wall.there = wall.left_rad > 0 && wall.right_rad > 0;
+    return wall;
+}
+
+/* An angle beside the picture, mirrored at its sides until it is inside. */
+static double fold(const struct wall *wall, double aside)
+{
+    double span = wall->left_rad + wall->right_rad, at = remainder(aside, 2 * M_PI) + wall->right_rad;
+    if (span >= 2 * M_PI) return aside;
+    at = fmod(at + 64 * span, 2 * span);
+    return (at < span ? at : 2 * span - at) - wall->right_rad;
+}
+
+/* Where a direction meets the wall, its height kept. */
+static struct vec3 meet_wall(const struct panorama_input *in, const struct wall *wall, struct vec3 d, bool folded)
+{
+    struct vec3 eye = in->seen->world_from_camera.translation;
+    double level = hypot(d.x, d.y), ux = d.x / level, uy = d.y / level, x = in->from_m.x - eye.x, y = in->from_m.y - eye.y;
+    double along = x * ux + y * uy, way = -along + sqrt(along * along - (x * x + y * y) + wall->radius_m * wall->radius_m);
+    double aside = atan2(y + way * uy, x + way * ux) - wall->forward_rad;
+    return wall_point(in, wall, folded ? fold(wall, aside) : aside, in->from_m.z + way * d.z / level);
+}
+
+/* The light's sky between the middles of its pixels; the ground's half is not mixed in. */
+static void sky_between(double rgb[3], const struct image *sky, struct vec3 d)
+{
+    double turn = atan2(d.y, d.x) / (2 * M_PI), fx = (turn - floor(turn)) * sky->width_px - 0.5;
+    double fy = fmin(fmax((0.5 - asin(fmin(1, fmax(-1, d.z))) / M_PI) * sky->height_px - 0.5, 0), sky->height_px / 2 - 1);
+    int x = (int)floor(fx), y = (int)fy, below = y + 1 < sky->height_px / 2 ? y + 1 : y;
+    double u = fx - x, v = fy - y;
+    int left = (x + sky->width_px) % sky->width_px, right = (x + 1) % sky->width_px;
+    for (int c = 0; c < 3; c++)
+        rgb[c] = (1 - v) * ((1 - u) * (double)image_f32(sky, left, y)[c] + u * (double)image_f32(sky, right, y)[c]) +
+                 v * ((1 - u) * (double)image_f32(sky, left, below)[c] + u * (double)image_f32(sky, right, below)[c]);
+}
+
+/* Mix what the picture shows at a pixel position into rgb. Clipped light is at least as bright as the sky behind it. */
+static double mix_picture(double rgb[3], const struct seen *seen, struct vec2 q, const double *sky)
+{
+    double shown[3], trust = seen_trust(seen, q);
+    if (trust <= 0) return 0;
+    bool clipped = seen_radiance(seen, shown, q);
+    for (int c = 0; c < 3; c++) {
+        if (clipped && sky) shown[c] = fmax(shown[c], sky[c]);
+        rgb[c] += trust * (shown[c] - rgb[c]);
+    }
+    return trust;
+}
+
+/* What the place shows in a direction. False where it is open. */
+static bool of_place(double rgb[3], const struct panorama_input *in, struct vec3 d)
+{
+    struct static_hit hit;
+    struct vec2 q;
+    float own[3];
+    static_mesh_hits(in->place, &hit, in->from_m, &d, 1);
+    if (!isfinite(hit.range_m)) return false;
+    static_mesh_color(in->place, own, &hit, hit.range_m * 2 * M_PI / WIDTH);
+    for (int c = 0; c < 3; c++) rgb[c] = (double)own[c] * in->color_gain[c];
+    struct vec3 p = vec3_add(in->from_m, vec3_scale(d, hit.range_m)), eye = in->seen->world_from_camera.translation;
+    if (!seen_project(in->seen, &q, p)) return true;
+    struct vec3 to_eye = vec3_sub(eye, p);
+    double range = vec3_norm(to_eye);
+    if (!static_mesh_blocks(in->place, p, vec3_scale(to_eye, 1 / range), OFF_PLACE_M, range)) mix_picture(rgb, in->seen, q, NULL);
+    return true;
+}
+
+/* Out: rgb  radiance. Returns whether it is other than the light's sky. */
+static bool look(double rgb[3], const struct panorama_input *in, const struct wall *wall, struct vec3 d)
+{
+    struct vec2 q;
+    if (in->place && of_place(rgb, in, d)) return true;
+    sky_between(rgb, &in->light->sky, d);
+    if (!wall->there || hypot(d.x, d.y) < 0.1) return false;
+    if (!seen_project(in->seen, &q, meet_wall(in, wall, d, !in->place))) return false;
+    /* What a place shows in the picture stands where it stands. */
+    if (in->place && isfinite((double)*image_f32(in->place_depth, (int)q.x, (int)q.y))) return false;
+    double sky[3] = { rgb[0], rgb[1], rgb[2] };
+    return mix_picture(rgb, in->seen, q, sky) > 0;
+}
+
+static struct vec3 direction(const struct image *image, double x, double y)
+{
+    double turn = x / image->width_px * 2 * M_PI, elevation = M_PI / 2 - y / image->height_px * M_PI;
+    return vec3(cos(elevation) * cos(turn), cos(elevation) * sin(turn), sin(elevation));
+}
+
+static void paint(struct image *image, const struct panorama_input *in, const struct wall *wall)
+{
+    for (int y = 0; y < image->height_px / 2; y++)
+        for (int x = 0; x < image->width_px; x++) {
+            double rgb[3], sum[3] = { 0, 0, 0 };
+            int n = look(rgb, in, wall, direction(image, x + 0.5, y + 0.5)) ? FINE : 1;
+            for (int j = 0; j < n; j++)
+                for (int i = 0; i < n; i++) {
+                    if (n > 1) look(rgb, in, wall, direction(image, x + (i + 0.5) / n, y + (j + 0.5) / n));
+                    for (int c = 0; c < 3; c++) sum[c] += rgb[c] / (n * n);
+                }
+            for (int c = 0; c < 3; c++) image_f32(image, x, y)[c] = (float)sum[c];
+        }
+}
+
+/* Below the horizon is the light's own ground; above, the means of squares of the large image. */
+static void reduce(struct image *small, const struct image *large, const struct image *sky)
+{
+    int square = large->width_px / small->width_px;
+    memcpy(small->data, sky->data, image_size(sky));
+    for (int y = 0; y < small->height_px / 2; y++)
+        for (int x = 0; x < small->width_px; x++)
+            for (int c = 0; c < 3; c++) {
+                double sum = 0;
+                for (int j = 0; j < square; j++)
+                    for (int i = 0; i < square; i++) sum += (double)image_f32(large, x * square + i, y * square + j)[c];
+                image_f32(small, x, y)[c] = (float)(sum / (square * square));
+            }
+}
+
+bool panorama_create(struct panorama *panorama, const struct panorama_input *in, struct error *err)
+{
+    struct panorama out = { 0 };
+    const struct image *sky = &in->light->sky;
+    int scale = sky->width_px < WIDTH ? WIDTH / sky->width_px : 1;
+    struct wall wall = raise_wall(in);
+    bool ok = image_init(&out.mirrored, scale * sky->width_px, scale * sky->height_px, 3, PIXEL_F32, err) &&
+              image_init(&out.lighting, sky->width_px, sky->height_px, 3, PIXEL_F32, err);
+    if (!ok) {
+        panorama_release(&out);
+        return false;
+    }
+    paint(&out.mirrored, in, &wall);
+    reduce(&out.lighting, &out.mirrored, sky);
+    const float *ground = image_f32(sky, 0, sky->height_px - 1);
+    for (int y = out.mirrored.height_px / 2; y < out.mirrored.height_px; y++)
+        for (int x = 0; x < out.mirrored.width_px; x++) memcpy(image_f32(&out.mirrored, x, y), ground, 3 * sizeof *ground);
+    *panorama = out;
+    return true;
+}
+
+void panorama_release(struct panorama *panorama)
+{
+    image_release(&panorama->mirrored);
+    image_release(&panorama->lighting);
+}

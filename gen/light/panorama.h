@@ -1,0 +1,36 @@
+/* What stands round the entities, and the sky above it: all directions above the horizon, seen from among them.
+ *
+ * Over a plane the picture tells no distances. Its ground is taken for ground as far as seen_ground_reach; what it shows
+ * beyond stands there, upright, on a circle round the camera, and where the camera does not look the circle goes on
+ * with the same mirrored. Over a place the rays tell what stands where: as the picture shows it, or else in its own colours. */
+#ifndef STAFFAGE_GEN_PANORAMA_H
+#define STAFFAGE_GEN_PANORAMA_H
+
+#include "gen/light/light.h"
+#include "gen/light/seen.h"
+#include "gen/world/static_mesh.h"
+#include "lib/error.h"
+#include "lib/image.h"
+#include "lib/vec.h"
+
+struct panorama {
+    struct image mirrored;  /* F32, 3 channels: radiance, laid out as sky_image.h says; below the horizon the light's own */
+    struct image lighting;  /* the same at the size of the light's sky */
+};
+
+struct panorama_input {
+    const struct seen *seen;
+    const struct light *light;
+    struct vec3 from_m;               /* among the entities, at the height of a body */
+    double height_m;                  /* of the camera above the ground */
+    const struct static_mesh *place;  /* NULL: the ground is a plane */
+    const struct image *place_depth;  /* as orthophoto_input */
+    double color_gain[3];             /* as the orthophoto's */
+};
+
+/* Out: *panorama, initialized here; free with panorama_release
+ * Err: ERR_MEMORY */
+bool panorama_create(struct panorama *panorama, const struct panorama_input *in, struct error *err);
+void panorama_release(struct panorama *panorama);
+
+#endif

@@ -1,0 +1,63 @@
+#include "gen/light/seen.h"
+
+#include "lib/air.h"
+
+#include <math.h>
+
+#define EDGE_SHARE 0.02 /* of the picture's width */
+#define SATURATED 250
+#define PIXEL_OF_GROUND_M 0.5
+
+void seen_init(struct seen *seen)
+{
+    struct camera_intrinsics lens = camera_intrinsics(seen->camera);
+    seen->camera_from_world = pose_inverse(seen->world_from_camera);
+    seen->pixel_rad = 1 / lens.fx_px;
+    for (int i = 0; i < 256; i++) seen->linear[i] = (double)linear_from_srgb((float)i / 255);
+}
+
+bool seen_project(const struct seen *seen, struct vec2 *q_px, struct vec3 p_m)
+{
+    struct error ignored;
+    struct vec3 p = pose_apply(seen->camera_from_world, p_m);
+    ignored.code = ERR_OK;
+    return camera_project(seen->camera, q_px, p, &ignored) && q_px->x >= 0 && q_px->y >= 0 &&
+           q_px->x < seen->camera->width_px && q_px->y < seen->camera->height_px;
+}
+
+double seen_ground_reach(const struct seen *seen, double height_m)
+{
+    return sqrt(PIXEL_OF_GROUND_M * fmax(height_m, 1) / seen->pixel_rad);
+}
+
+double seen_trust(const struct seen *seen, struct vec2 q)
+{
+    double width = seen->camera->width_px, height = seen->camera->height_px;
+    double inside = fmin(fmin(q.x, width - q.x), fmin(q.y, height - q.y)) / (EDGE_SHARE * width);
+    double trust = inside <= 0 ? 0 : inside >= 1 ? 1 : inside * inside * (3 - 2 * inside);
+    return seen->unhidden && trust > 0 ? trust * *image_u8(seen->unhidden, (int)q.x, (int)q.y) / 255 : trust;
+}
+
+bool seen_radiance(const struct seen *seen, double rgb[3], struct vec2 q)
+{
+    int width = seen->camera->width_px, height = seen->camera->height_px;
+    double fx = fmin(fmax(q.x - 0.5, 0), width - 1), fy = fmin(fmax(q.y - 0.5, 0), height - 1);
+    int x = (int)fx, y = (int)fy, right = x + 1 < width, down = y + 1 < height;
+    const uint8_t *px[4] = { image_u8(seen->picture, x, y), image_u8(seen->picture, x + right, y),
+                             image_u8(seen->picture, x, y + down), image_u8(seen->picture, x + right, y + down) };
+    double u = fx - x, v = fy - y, weight[4] = { (1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v };
+    bool saturated = false;
+    rgb[0] = rgb[1] = rgb[2] = 0;
+    for (int i = 0; i < 4; i++) {
+        for (int c = 0; c < 3; c++) rgb[c] += weight[i] * seen->linear[px[i][c]] / seen->k[c];
+        saturated = saturated || px[i][0] >= SATURATED || px[i][1] >= SATURATED || px[i][2] >= SATURATED;
+    }
+    return saturated;
+}
+
+void seen_clear_air(const struct seen *seen, double rgb[3], double distance_m)
+{
+    if (!(seen->visibility_m > 0)) return;
+    double t = air_transmission(seen->visibility_m, distance_m);
+    for (int c = 0; c < 3; c++) rgb[c] = fmax(0, (rgb[c] - seen->haze[c] / seen->k[c] * (1 - t)) / t);
+}

@@ -1,0 +1,139 @@
+/* What stands round the entities, from pictures that were drawn by hand. */
+#include "gen/light/panorama.h"
+
+#include "gen/light/sky_image.h"
+#include "tests/gen/place.h"
+#include "tests/gen/view_above.h"
+#include "tests/tap.h"
+
+enum { WIDTH = 400, HEIGHT = 300 };
+
+static const struct camera camera = { .model = CAMERA_PINHOLE, .width_px = WIDTH, .height_px = HEIGHT, .params = { 200, 200, 200, 150 } };
+/* 6 m above the ground, level, along +y: ground is ground for sqrt(0.5 m * 6 m * 200) = 24.495 m. */
+static const struct pose level = { { { { 1, 0, 0 }, { 0, 0, 1 }, { 0, -1, 0 } } }, { 0, 0, 6 } };
+static struct image picture;
+
+static void radiance_at(double rgb[3], const struct image *image, double azimuth_deg, double elevation_deg)
+{
+    int x = (int)(azimuth_deg / 360 * image->width_px), y = (int)((90 - elevation_deg) / 180 * image->height_px);
+    for (int c = 0; c < 3; c++) rgb[c] = (double)image_f32(image, x, y)[c];
+}
+
+static void near_radiance(const struct image *image, double azimuth_deg, double elevation_deg, double r, double g, double b, const char *what)
+{
+    double rgb[3], want[3] = { r, g, b };
+    radiance_at(rgb, image, azimuth_deg, elevation_deg);
+    for (int c = 0; c < 3; c++) NEAR(rgb[c], want[c], 0.01 * want[c] + 0.002, "%s, channel %d", what, c);
+}
+
+static double degrees(double radians) { return radians * 180 / M_PI; }
+
+static struct panorama_input input(const struct seen *seen, const struct light *light)
+{
+    return (struct panorama_input){ .seen = seen, .light = light, .from_m = { 0, 10, 1 }, .height_m = 6, .color_gain = { 2, 2, 2 } };
+}
+
+static void over_a_plane(const struct light *light)
+{
+    struct error err = ERROR_NONE;
+    struct panorama p;
+    struct seen seen = { .picture = &picture, .camera = &camera, .world_from_camera = level, .k = { 0.5, 0.5, 0.5 } };
+    seen_init(&seen);
+    struct panorama_input in = input(&seen, light);
+    /* Grey; a sign at 24.495 m, from 8 to 10 m high and 2 m wide: 16.33 to 32.66 px above the middle, 8.2 px to each side. */
+    fill_px(&picture, 0, 0, WIDTH, HEIGHT, 0.1, 0.1, 0.1);
+    fill_px(&picture, 192, 117, 208, 134, 0.1, 0.2, 0.4);
+    if (!OK(panorama_create(&p, &in, &err), "over a plane")) return;
+    OK(p.mirrored.width_px == 1024 && p.lighting.width_px == light->sky.width_px, "a fine one is mirrored, one of the sky's size lights");
+    double up = degrees(atan2(8, 14.495));
+    near_radiance(&p.mirrored, 90, up, 0.2, 0.4, 0.8, "the sign is where it stands: 14.5 m from here, 8 m higher");
+    near_radiance(&p.mirrored, 90, degrees(atan2(6.3, 14.495)), 0.2, 0.2, 0.2, "below it is what the picture shows below it");
+    near_radiance(&p.mirrored, 90 + degrees(atan2(1.6, 14.495)), up, 0.2, 0.2, 0.2, "and beside it what it shows there");
+    near_radiance(&p.mirrored, 270, 3, 0.2, 0.2, 0.2, "behind the camera it goes on");
+    double sky[3], model[3];
+    radiance_at(sky, &p.mirrored, 30, 75);
+    light_sky_radiance(model, light, vec3(cos(M_PI / 6) * cos(75 * M_PI / 180), sin(M_PI / 6) * cos(75 * M_PI / 180), sin(75 * M_PI / 180)));
+    for (int c = 0; c < 3; c++) NEAR(sky[c], model[c], 0.03 * model[c], "above is the sky, channel %d", c);
+    double sum[2][3] = { { 0 } };
+    for (int k = 0; k < 2; k++) {
+        const struct image *image = k ? &p.lighting : &p.mirrored;
+        for (int y = 0; y < image->height_px / 2; y++)
+            for (int x = 0; x < image->width_px; x++)
+                for (int c = 0; c < 3; c++) sum[k][c] += sky_level_weight(image, y) * (double)image_f32(image, x, y)[c];
+    }
+    for (int c = 0; c < 3; c++) NEAR(sum[1][c], sum[0][c], 0.005 * sum[0][c], "both send as much light down, channel %d", c);
+    panorama_release(&p);
+
+    /* A sky that the sensor could not hold. */
+    fill_px(&picture, 0, 0, WIDTH, 140, 1, 1, 1);
+    for (int c = 0; c < 3; c++) seen.k[c] = 10;
+    if (OK(panorama_create(&p, &in, &err), "a white sky")) {
+        radiance_at(sky, &p.mirrored, 90, 30);
+        light_sky_radiance(model, light, vec3(0, cos(M_PI / 6), sin(M_PI / 6)));
+        OK(sky[0] >= 0.95 * model[0], "is as bright as the sky's model, or more (%.3f, %.3f)", sky[0], model[0]);
+        panorama_release(&p);
+    }
+
+    /* A camera that looks down shows nothing that stands. */
+    seen.world_from_camera = looking(vec3(0, 0, 30), vec3(0, 1, 0));
+    seen_init(&seen);
+    in.height_m = 30;
+    if (OK(panorama_create(&p, &in, &err), "from above")) {
+        int other = 0;
+        for (int y = 0; y < p.lighting.height_px / 2; y++)
+            for (int x = 0; x < p.lighting.width_px; x++)
+                other += fabsf(image_f32(&p.lighting, x, y)[1] / image_f32(&light->sky, x, y)[1] - 1) > 0.1f;
+        OK(other == 0, "there is the sky alone");
+        panorama_release(&p);
+    }
+}
+
+/* A wall 5 m ahead of the body and 3 m high, and one behind the camera; the mesh is grey of 128, 0.21586 linear. */
+static void over_a_place(const struct light *light)
+{
+    struct error err = ERROR_NONE;
+    struct panorama p;
+    struct place place = { 0 };
+    struct static_mesh *mesh = NULL;
+    struct image depth = { 0 };
+    struct seen seen = { .picture = &picture, .camera = &camera, .world_from_camera = level, .k = { 0.5, 0.5, 0.5 } };
+    seen_init(&seen);
+    struct panorama_input in = input(&seen, light);
+    place_ground(&place, 0, 0);
+    place_wall(&place, -20, 20, 15, 0, 3, 0);
+    place_wall(&place, -20, 20, -9, 0, 3, 0);
+    fill_px(&picture, 0, 0, WIDTH, HEIGHT, 0.1, 0.1, 0.1);
+    /* 1.88 m up on the wall, 10 degrees above the body: 4.12 / 15 * 200 = 54.9 px below the middle. */
+    fill_px(&picture, 190, 200, 210, 210, 0.4, 0.1, 0.1);
+    if (!OK(place_mesh(&mesh, &place, false, &err) && image_init(&depth, WIDTH, HEIGHT, 1, PIXEL_F32, &err), "a place")) return;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) ((float *)depth.data)[i] = i < WIDTH * 150 ? NAN : 15;
+    in.place = mesh;
+    in.place_depth = &depth;
+    if (OK(panorama_create(&p, &in, &err), "over a place")) {
+        near_radiance(&p.mirrored, 90, 10, 0.8, 0.2, 0.2, "what the picture shows on a wall is there");
+        near_radiance(&p.mirrored, 90, 3, 0.2, 0.2, 0.2, "and not lower");
+        near_radiance(&p.mirrored, 270, 3, 0.43172, 0.43172, 0.43172, "a wall that the picture does not show has the mesh's colour");
+        double sky[3], model[3];
+        radiance_at(sky, &p.mirrored, 270, 30);
+        light_sky_radiance(model, light, vec3(0, -cos(M_PI / 6), sin(M_PI / 6)));
+        NEAR(sky[2], model[2], 0.03 * model[2], "above it is the sky");
+        panorama_release(&p);
+    }
+    static_mesh_destroy(mesh);
+    place_free(&place);
+    image_release(&depth);
+}
+
+int main(void)
+{
+    struct error err = ERROR_NONE;
+    struct light light;
+    struct scene scene = { .path = "scene.yaml", .sky = SKY_CLEAR, .sun = SUN_GIVEN, .sun_azimuth_rad = 4, .sun_elevation_rad = M_PI / 4, .turbidity = 3,
+                           .sun_scale = 1, .ground = { { 0, 0, 1 }, 0 }, .ground_albedo = { 0.3, 0.3, 0.3 } };
+    if (!OK(light_create(&light, &scene, &err) && image_init(&picture, WIDTH, HEIGHT, 3, PIXEL_U8, &err), "light and a picture")) return tap_done();
+    over_a_plane(&light);
+    over_a_place(&light);
+    image_release(&picture);
+    light_release(&light);
+    return tap_done();
+}

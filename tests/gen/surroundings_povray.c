@@ -1,0 +1,174 @@
+/* Balls among surroundings taken from a picture, as POV-Ray renders them: what light reaches them, and what they mirror. */
+#include "gen/light/orthophoto.h"
+#include "gen/render/passes.h"
+#include "tests/gen/povray.h"
+#include "tests/gen/solid.h"
+#include "tests/gen/view_above.h"
+#include "tests/tap.h"
+
+enum { WIDTH = 160, HEIGHT = 120, ROUND = 64 };
+
+static const struct camera camera = { .model = CAMERA_PINHOLE, .width_px = WIDTH, .height_px = HEIGHT, .params = { 180, 180, 80, 60 } };
+static const struct vec3 eye = { 0, -8, 5 }, middle = { 0, 0, 1 };
+static char out[] = "surroundings.XXXXXX";
+static struct scene scene = {
+    .path = "scene.yaml", .sky = SKY_CLEAR, .sun = SUN_GIVEN, .sun_azimuth_rad = 1, .sun_elevation_rad = 0.8, .turbidity = 3, .sun_scale = 1,
+    .ground = { { 0, 0, 1 }, 0 }, .ground_albedo = { 0.3, 0.3, 0.3 }, .quality = QUALITY_DRAFT,
+};
+
+/* Of radius 1, its middle at `middle`. */
+static void ball(struct solid *solid)
+{
+    solid_egg(solid, 2, 2, 2, ROUND);
+    for (size_t i = 0; i < solid->mesh.vertices; i++)
+        for (int k = 0; k < 3; k++) solid->mesh.normal[i][k] = solid->mesh.position_m[i][k] - (k == 2);
+}
+
+/* The object pass of a ball, over the ground that the picture shows or, without one, the scene's. */
+static bool render(struct image *pass, const struct light *light, const struct entity *entity, struct image *picture)
+{
+    struct error err = ERROR_NONE;
+    char sky_map[SKY_MAP_SIZE], *folder = string_format("%s/frames", out), *path = string_format("%s/object.exr", folder);
+    char *fine = string_format("%s/fine.png", folder), *coarse = string_format("%s/coarse.png", folder);
+    const struct model_include include = model_include(0, entity);
+    struct receiver receiver = { 0 };
+    struct pass_surroundings around = { .orthophoto = "frames/fine.png", .orthophoto_coarse = "frames/coarse.png" };
+    struct passes p = { .scene = &scene, .sky_map = sky_map, .light = light, .world_from_camera = looking(eye, middle), .entities = entity,
+                        .includes = &include, .entity_count = 1, .ground = scene.ground, .receivers = &receiver, .receiver_count = 1 };
+    bool ok = folder_make(folder, &err) && sky_map_write(sky_map, out, light, &err) &&
+              receiver_create(&receiver, entity, &scene.ground, light, false, &err) &&
+              view_cover(&p.view, &camera, (struct rect){ 0, 0, WIDTH, HEIGHT }, &err) && model_include_write(&include, NULL, out, entity, &err);
+    if (ok && picture) {
+        struct orthophoto ground;
+        struct seen seen = { .picture = picture, .camera = &camera, .world_from_camera = p.world_from_camera, .k = { 1, 1, 1 } };
+        seen_init(&seen);
+        struct orthophoto_input in = { .seen = &seen, .light = light, .ground = &scene.ground, .entities = entity, .n = 1, .ground_albedo = { 0.3, 0.3, 0.3 } };
+        ok = orthophoto_create(&ground, &in, &err) && image_write(fine, &ground.mirrored, &err) && image_write(coarse, &ground.bouncing, &err);
+        around.low_m = ground.low_m;
+        around.high_m = ground.high_m;
+        memcpy(around.ground_albedo, ground.elsewhere, sizeof around.ground_albedo);
+        p.surroundings = &around;
+        orthophoto_release(&ground);
+    }
+    ok = ok && passes_write(folder, &p, &err) && povray(out, "object", WIDTH, HEIGHT, "-A -J") && image_read(pass, path, &err);
+    if (!ok) printf("# %s %s; %s/povray.log\n", err.file, err.text, out);
+    receiver_release(&receiver);
+    free(folder);
+    free(path);
+    free(fine);
+    free(coarse);
+    return ok;
+}
+
+/* The mean over the part of a ball that looks down: below its middle in the picture. */
+static void underside(double rgb[3], const struct image *pass)
+{
+    double n = 0;
+    rgb[0] = rgb[1] = rgb[2] = 0;
+    for (int y = 70; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            const float *p = image_f32(pass, x, y);
+            if (p[3] < 1) continue;
+            for (int c = 0; c < 3; c++) rgb[c] += (double)p[c];
+            n++;
+        }
+    for (int c = 0; c < 3; c++) rgb[c] /= n;
+}
+
+static void test_bounce(const struct light *light, struct entity *entity, struct image *picture)
+{
+    struct image pass[3] = { { 0 } };
+    double bare[3], shown[3], red[3];
+    const double *e = light->irradiance;
+    if (!OK(render(&pass[0], light, entity, NULL), "a white ball over bare ground")) return;
+    fill_px(picture, 0, 0, WIDTH, HEIGHT, 0.3 * e[0], 0.3 * e[1], 0.3 * e[2]);
+    if (!OK(render(&pass[1], light, entity, picture), "over a picture of the same ground")) return;
+    fill_px(picture, 0, 0, WIDTH, HEIGHT, 0.3 * e[0], 0.05 * e[1], 0.05 * e[2]);
+    if (!OK(render(&pass[2], light, entity, picture), "over a picture of red ground")) return;
+    underside(bare, &pass[0]);
+    underside(shown, &pass[1]);
+    underside(red, &pass[2]);
+    for (int c = 0; c < 3; c++) NEAR(shown[c] / bare[c], 1, 0.02, "a picture of even ground sends as much light up as the ground itself, channel %d", c);
+    NEAR(red[0] / shown[0], 1, 0.02, "red ground sends up the red");
+    OK(red[1] < 0.8 * shown[1] && red[2] < 0.8 * shown[2], "and little else (%.3f, %.3f)", red[1] / shown[1], red[2] / shown[2]);
+    for (int i = 0; i < 3; i++) image_release(&pass[i]);
+}
+
+/* Where in the picture a mirror ball shows a point: light takes the shortest way by its surface (Fermat). */
+static struct vec2 mirrored_at(struct vec3 point)
+{
+    double low_a = 0, high_a = M_PI, low_b = -M_PI, high_b = M_PI, best_a = 0, best_b = 0;
+    for (int round = 0; round < 12; round++) {
+        double least = INFINITY, wa = high_a - low_a, wb = high_b - low_b;
+        for (int i = 0; i <= 40; i++)
+            for (int k = 0; k <= 40; k++) {
+                double a = low_a + wa * i / 40, b = low_b + wb * k / 40;
+                struct vec3 n = vec3(sin(a) * cos(b), sin(a) * sin(b), cos(a)), p = vec3_add(middle, n);
+                if (vec3_dot(n, vec3_sub(eye, p)) <= 0 || vec3_dot(n, vec3_sub(point, p)) <= 0) continue;
+                double way = vec3_norm(vec3_sub(eye, p)) + vec3_norm(vec3_sub(point, p));
+                if (way < least) least = way, best_a = a, best_b = b;
+            }
+        low_a = best_a - wa / 10, high_a = best_a + wa / 10, low_b = best_b - wb / 10, high_b = best_b + wb / 10;
+    }
+    struct vec3 p = vec3_add(middle, vec3(sin(best_a) * cos(best_b), sin(best_a) * sin(best_b), cos(best_a)));
+    struct vec3 ahead = vec3_unit(vec3_sub(middle, eye)), right = vec3_unit(vec3_cross(ahead, vec3(0, 0, 1))), way = vec3_sub(p, eye);
+    double z = vec3_dot(way, ahead);
+    return (struct vec2){ 80 + 180 * vec3_dot(way, right) / z, 60 - 180 * vec3_dot(way, vec3_cross(right, ahead)) / z };
+}
+
+static void test_mirror(const struct light *light, struct entity *entity, struct image *picture, struct vec3 marker)
+{
+    struct image pass = { 0 };
+    const double *e = light->irradiance;
+    fill_px(picture, 0, 0, WIDTH, HEIGHT, 0.2 * e[0], 0.2 * e[1], 0.2 * e[2]);
+    struct pose camera_from_world = pose_inverse(looking(eye, middle));
+    for (int y = 0; y < HEIGHT; y++) /* a square of 0.6 m round the marker, by its corner's rays */
+        for (int x = 0; x < WIDTH; x++) {
+            struct vec3 ray = mat3_apply(mat3_transpose(camera_from_world.rotation), vec3((x + 0.5 - 80) / 180, (y + 0.5 - 60) / 180, 1)), p;
+            if (plane_intersect(&scene.ground, &p, eye, ray) && fabs(p.x - marker.x) < 0.3 && fabs(p.y - marker.y) < 0.3)
+                fill_px(picture, x, y, x + 1, y + 1, 0.7 * e[0], 0.05 * e[1], 0.05 * e[2]);
+        }
+    if (!OK(render(&pass, light, entity, picture), "a mirror ball over a marker at (%g, %g)", marker.x, marker.y)) return;
+    double sum = 0, sx = 0, sy = 0;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            const float *p = image_f32(&pass, x, y);
+            double redness = p[3] >= 1 && p[0] > 2 * p[1] ? (double)(p[0] - p[1]) : 0;
+            sum += redness, sx += redness * (x + 0.5), sy += redness * (y + 0.5);
+        }
+    struct vec2 want = mirrored_at(marker);
+    OK(sum > 0, "the ball shows it");
+    NEAR(sx / sum, want.x, 1, "where its mirror image is, across");
+    NEAR(sy / sum, want.y, 1, "and down");
+    image_release(&pass);
+}
+
+int main(void)
+{
+    struct error err = ERROR_NONE;
+    struct light light;
+    struct image picture;
+    struct solid white, mirror;
+    ball(&white);
+    ball(&mirror);
+    mirror.material.metallic = 1;
+    mirror.material.roughness = 0;
+    struct entity entity = { .id = 1, .name = "ball", .model_name = "ball", .class_ = CLASS_OTHER, .model = &white.model, .world_from_entity = pose_identity() };
+    if (!OK(mkdtemp(out) != NULL && light_create(&light, &scene, &err) && image_init(&picture, WIDTH, HEIGHT, 3, PIXEL_U8, &err), "light and a picture"))
+        return tap_done();
+    test_bounce(&light, &entity, &picture);
+    entity.model = &mirror.model;
+    test_mirror(&light, &entity, &picture, vec3(1.2, -1.9, 0));
+    test_mirror(&light, &entity, &picture, vec3(-2, -1.4, 0));
+    image_release(&picture);
+    light_release(&light);
+    solid_free(&white);
+    solid_free(&mirror);
+    pid_t child = fork();
+    if (child == 0) {
+        execlp("rm", "rm", "-rf", out, (char *)NULL);
+        _exit(127);
+    }
+    waitpid(child, NULL, 0);
+    return tap_done();
+}
