@@ -65,6 +65,41 @@ static void over_a_plane(const struct light *light, const struct entity *entitie
     OK(image_u8(&o.mirrored, 0, 0)[0] == image_u8(&o.mirrored, o.mirrored.width_px - 1, 40)[0], "its edges are the rest");
     orthophoto_release(&o);
 
+    /* From frame to frame: somebody moves on, and there is other noise. */
+    struct entity moved[2] = { entities[0], entities[1] };
+    struct orthophoto next;
+    int other = 0;
+    double before[3], after[3];
+    moved[0].world_from_entity.translation.x += 0.37;
+    in.entities = moved;
+    if (OK(orthophoto_create(&o, &in, &err), "the next frame")) {
+        for (int i = 0; i < 3 * WIDTH * HEIGHT; i++) ((uint8_t *)picture.data)[i] += (uint8_t)((uint32_t)i * 2654435761u >> 30);
+        in.entities = entities;
+        if (OK(orthophoto_create(&next, &in, &err), "with other noise")) {
+            for (double x = -4; x < 8; x += 0.5) {
+                albedo_at(before, &o, &o.bouncing, x, 3);
+                albedo_at(after, &next, &next.bouncing, x, 3);
+                other += fabs(before[1] / after[1] - 0.975) > 0.015;
+            }
+            OK(other == 0, "bounces the same but for the noise's mean (%d)", other);
+            orthophoto_release(&next);
+        }
+        for (int i = 0; i < 3 * WIDTH * HEIGHT; i++) ((uint8_t *)picture.data)[i] -= (uint8_t)((uint32_t)i * 2654435761u >> 30);
+        if (OK(orthophoto_create(&next, &in, &err), "with the same")) {
+            other = 0;
+            for (double y = -2; y < 9; y += 0.11)
+                for (double x = -2; x < 8; x += 0.11) {
+                    albedo_at(before, &o, &o.mirrored, x, y);
+                    albedo_at(after, &next, &next.mirrored, x, y);
+                    other += memcmp(before, after, sizeof before) != 0;
+                }
+            OK(other == 0, "texels stay where they are, to the bit (%d)", other);
+            orthophoto_release(&next);
+        }
+        orthophoto_release(&o);
+    }
+    in.entities = entities;
+
     /* A tall thing hides ground: what it shows is not taken for ground. */
     struct image unhidden = { 0 };
     if (!image_init(&unhidden, WIDTH, HEIGHT, 1, PIXEL_U8, &err)) return;
