@@ -26,10 +26,12 @@ static void close_text(struct text *text)
 enum component { U8 = 5121, I16 = 5122, U16 = 5123, F32 = 5126 };
 enum target { NO_TARGET, VERTICES = 34962, INDICES = 34963 };
 
-static int add_view(struct out *out, const void *data, size_t bytes, enum target target)
+/* stride: of one vertex; 0 where that goes without saying */
+static int add_view(struct out *out, const void *data, size_t bytes, enum target target, size_t stride)
 {
     fprintf(out->views.f, "%s{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu", out->view_count ? "," : "", out->size, bytes);
     if (target) fprintf(out->views.f, ",\"target\":%d", (int)target);
+    if (stride) fprintf(out->views.f, ",\"byteStride\":%zu", stride);
     fputc('}', out->views.f);
     fwrite(data, 1, bytes, out->bytes.f);
     for (out->size += bytes; out->size % 4; out->size++) fputc(0, out->bytes.f);
@@ -89,9 +91,9 @@ static void add_pieces(struct out *out, FILE *primitives, const struct skin_figu
         memcpy(index + used, piece->index, piece->indices * sizeof *index);
         used += piece->indices;
     }
-    int views[6] = { add_view(out, position, n * sizeof *position, VERTICES), add_view(out, normal, n * sizeof *normal, VERTICES),
-                     add_view(out, uv, n * sizeof *uv, VERTICES), add_view(out, joints, n * sizeof *joints, VERTICES),
-                     add_view(out, weights, n * sizeof *weights, VERTICES), add_view(out, index, indices * sizeof *index, INDICES) };
+    int views[6] = { add_view(out, position, n * sizeof *position, VERTICES, 12), add_view(out, normal, n * sizeof *normal, VERTICES, 12),
+                     add_view(out, uv, n * sizeof *uv, VERTICES, 4), add_view(out, joints, n * sizeof *joints, VERTICES, 4),
+                     add_view(out, weights, n * sizeof *weights, VERTICES, 4), add_view(out, index, indices * sizeof *index, INDICES, 0) };
     v = used = 0;
     for (int i = 0; i < figure->pieces; i++) {
         const struct skin_piece *piece = &figure->piece[i];
@@ -135,7 +137,7 @@ static int add_inverse_bind(struct out *out, const struct body *body)
         to_file(&m[j][12], vec3_scale(body->at[j], -1));
         m[j][0] = m[j][5] = m[j][10] = m[j][15] = 1;
     }
-    return add_accessor(out, add_view(out, m, sizeof m, NO_TARGET), 0, JOINT_COUNT, F32, false, "MAT4", "");
+    return add_accessor(out, add_view(out, m, sizeof m, NO_TARGET, 0), 0, JOINT_COUNT, F32, false, "MAT4", "");
 }
 
 static void add_clip(struct out *out, FILE *f, const struct clip *clip)
@@ -154,9 +156,9 @@ static void add_clip(struct out *out, FILE *f, const struct clip *clip)
         }
     }
     limits_of(limits, sizeof limits, time_s, n, 1);
-    int input = add_accessor(out, add_view(out, time_s, n * sizeof *time_s, NO_TARGET), 0, n, F32, false, "SCALAR", limits);
-    int first = add_accessor(out, add_view(out, hips, n * sizeof *hips, NO_TARGET), 0, n, F32, false, "VEC3", "");
-    for (int j = 0; j < JOINT_COUNT; j++) add_accessor(out, add_view(out, turn[j], n * sizeof *turn[j], NO_TARGET), 0, n, I16, true, "VEC4", "");
+    int input = add_accessor(out, add_view(out, time_s, n * sizeof *time_s, NO_TARGET, 0), 0, n, F32, false, "SCALAR", limits);
+    int first = add_accessor(out, add_view(out, hips, n * sizeof *hips, NO_TARGET, 0), 0, n, F32, false, "VEC3", "");
+    for (int j = 0; j < JOINT_COUNT; j++) add_accessor(out, add_view(out, turn[j], n * sizeof *turn[j], NO_TARGET, 0), 0, n, I16, true, "VEC4", "");
     fprintf(f, "{\"name\":\"%s\",\"channels\":[{\"sampler\":0,\"target\":{\"node\":%d,\"path\":\"translation\"}}", clip->name, 1 + HIPS);
     for (int j = 0; j < JOINT_COUNT; j++) fprintf(f, ",{\"sampler\":%d,\"target\":{\"node\":%d,\"path\":\"rotation\"}}", 1 + j, 1 + j);
     fputs("],\"samplers\":[", f);
@@ -203,7 +205,7 @@ bool write_skin_glb(const char *path, const struct skin_figure *figure, struct e
         if (i) fputc(',', clips.f);
         add_clip(&out, clips.f, &figure->clip[i]);
     }
-    int image = add_view(&out, figure->png, figure->png_size, NO_TARGET);
+    int image = add_view(&out, figure->png, figure->png_size, NO_TARGET, 0);
     close_text(&out.views), close_text(&out.accessors), close_text(&primitives), close_text(&clips);
 
     FILE *f = json.f;

@@ -47,16 +47,14 @@ static struct vec3 velocity(const struct entity *entity, double speed_m_s, doubl
     return vec3_scale(vec3(sin(heading_rad), cos(heading_rad), front.z / hypot(front.x, front.y)), speed_m_s);
 }
 
-/* Its rigged model as it is after a way. */
-static bool pose_entity(struct moment *moment, const struct stage *stage, double distance_m, double phase, double time_s,
-                        struct error *err)
+/* Its rigged model as it is now. */
+static bool pose_entity(struct moment *moment, const struct stage *stage, const struct pace_now *now, struct error *err)
 {
     struct entity *entity = &moment->entities[moment->n];
-    const struct gait *gait = &stage->gaits[moment->model_index[moment->n]];
     if (!entity->model->rig) return true;
-    double time = gait_time(gait, distance_m, phase) + (gait->walks ? 0 : time_s);
+    struct posture posture = repertoire_posture(&stage->repertoires[moment->model_index[moment->n]], now);
     struct model *posed = &moment->posed[moment->posed_count];
-    if (!model_pose(posed, entity->model, time, err)) return false;
+    if (!model_pose(posed, entity->model, &posture, err)) return false;
     moment->posed_count++;
     entity->model = posed;
     return true;
@@ -86,7 +84,11 @@ static bool add_entity(struct moment *moment, const struct stage *stage, size_t 
         return error_prefix(err, "entity \"%s\": ", e->name);
     }
     moment->velocity_m_s[moment->n] = velocity(entity, speed, heading);
-    if (!pose_entity(moment, stage, e->speed_m_s < 0 ? -way_m : way_m, 0, time_s, err)) return false;
+    struct pace_now now = { .speed_m_s = speed, .wish_m_s = stage->courses[i] ? e->speed_m_s : 0,
+                            .distance_m = e->speed_m_s < 0 ? -way_m : way_m, .time_s = time_s };
+    /* Those who stand about do not all shift their weight at once. */
+    if (stage->repertoires[stage->cast[i]].has[PACE_STAND] && !stage->courses[i]) now.phase = fmod(0.618034 * (double)(i + 1), 1);
+    if (!pose_entity(moment, stage, &now, err)) return false;
     moment->n++;
     return true;
 }
@@ -111,7 +113,9 @@ static bool add_mover(struct moment *moment, const struct stage *stage, const st
         return error_prefix(err, "%s: ", name);
     }
     moment->velocity_m_s[moment->n] = velocity(entity, mover->speed_m_s, mover->heading_rad);
-    if (!pose_entity(moment, stage, mover->distance_m, mover->phase, time_s, err)) return false;
+    struct pace_now now = { .speed_m_s = mover->speed_m_s, .wish_m_s = mover->wish_m_s, .distance_m = mover->distance_m,
+                            .phase = mover->phase, .time_s = time_s };
+    if (!pose_entity(moment, stage, &now, err)) return false;
     moment->n++;
     return true;
 }

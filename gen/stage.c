@@ -88,7 +88,7 @@ static bool load_model(struct stage *stage, size_t index, const struct material_
     const char *file = detail_file(named, stage->details[index]);
     if (!model_load(&stage->models[index], file, &options, err)) return false;
     struct model *model = stage->models[index];
-    if (model->rig && !gait_create(&stage->gaits[index], model, err)) return false;
+    if (model->rig && !repertoire_create(&stage->repertoires[index], model, err)) return false;
     for (size_t k = 0; k < model->missing_texture_count; k++)
         if (!warn(stage, string_format("%s: texture \"%s\" not found beside it or in the folders around it; its material has its "
                                        "plain colour", file, model->missing_textures[k]), err))
@@ -393,10 +393,10 @@ bool stage_create(struct stage **out, const struct scene *scene, const struct ma
     stage->cast = calloc(scene->entity_count + 1, sizeof *stage->cast);
     stage->details = calloc(scene->model_count + 1, sizeof *stage->details);
     stage->models = calloc(scene->model_count + 1, sizeof *stage->models);
-    stage->gaits = calloc(scene->model_count + 1, sizeof *stage->gaits);
+    stage->repertoires = calloc(scene->model_count + 1, sizeof *stage->repertoires);
     stage->stand_m = calloc(scene->entity_count + 1, sizeof *stage->stand_m);
     stage->courses = calloc(scene->entity_count + 1, sizeof *stage->courses);
-    if (!stage->cast || !stage->details || !stage->models || !stage->gaits || !stage->stand_m || !stage->courses) {
+    if (!stage->cast || !stage->details || !stage->models || !stage->repertoires || !stage->stand_m || !stage->courses) {
         out_of_memory(err);
         goto failed;
     }
@@ -419,14 +419,14 @@ void stage_destroy(struct stage *stage)
     free(stage->ribbons);
     roads_release(&stage->roads);
     static_mesh_destroy(stage->mesh);
-    for (size_t i = 0; stage->gaits && i < stage->scene->model_count; i++) gait_release(&stage->gaits[i]);
+    for (size_t i = 0; stage->repertoires && i < stage->scene->model_count; i++) repertoire_release(&stage->repertoires[i]);
     for (size_t i = 0; stage->models && i < stage->scene->model_count; i++) model_destroy(stage->models[i]);
     for (size_t i = 0; i < stage->warning_count; i++) free(stage->warnings[i]);
     free(stage->warnings);
     free(stage->cast);
     free(stage->details);
     free(stage->models);
-    free(stage->gaits);
+    free(stage->repertoires);
     free(stage->stand_m);
     free(stage->courses);
     free(stage);

@@ -4,7 +4,7 @@
 
 #include "gen/model/material.h"
 #include "gen/model/model.h"
-#include "gen/motion/gait.h"
+#include "gen/motion/repertoire.h"
 #include "gen/motion/traffic.h"
 #include "gen/scene/scene.h"
 #include "gen/world/entity.h"
@@ -24,7 +24,7 @@ struct stage {
     size_t *cast;                /* (scene->entity_count) which model each is, drawn where the scene leaves a choice */
     enum detail *details;        /* (scene->model_count) */
     struct model **models;       /* (scene->model_count) NULL where nothing uses it */
-    struct gait *gaits;          /* (scene->model_count) of the models that are rigged */
+    struct repertoire *repertoires; /* (scene->model_count) of the models that are rigged */
     struct static_mesh *mesh;    /* NULL: the ground is a plane */
     struct road_network roads;
     struct ribbon *ribbons;      /* (ribbon_count) with a mesh, one for each way over it */

@@ -248,9 +248,10 @@ void fill(gltf *out, const tinygltf::Model &model)
     });
     each(&out->materials, &out->material_count, model.materials,
          [](gltf_material &to, const tinygltf::Material &from) { fill(&to, from); });
-    if (!model.animations.empty()) {
-        const tinygltf::Animation &animation = model.animations[0];
-        std::vector<gltf_channel> channels;
+    std::vector<gltf_channel> channels;
+    each(&out->animations, &out->animation_count, model.animations, [&](gltf_animation &made, const tinygltf::Animation &animation) {
+        made.name = copy(animation.name);
+        made.first = channels.size();
         for (const auto &from : animation.channels) {
             gltf_channel to = { from.target_node, -1, -1, GLTF_TRANSLATION, GLTF_LINEAR };
             if (from.sampler >= 0 && (size_t)from.sampler < animation.samplers.size()) {
@@ -264,9 +265,10 @@ void fill(gltf *out, const tinygltf::Model &model)
             else if (from.target_path != "translation") continue;
             channels.push_back(to);
         }
-        out->channels = copy(channels);
-        out->channel_count = channels.size();
-    }
+        made.count = channels.size() - made.first;
+    });
+    out->channels = copy(channels);
+    out->channel_count = channels.size();
     std::vector<int> roots;
     if (!model.scenes.empty()) {
         size_t scene = model.defaultScene >= 0 && (size_t)model.defaultScene < model.scenes.size() ? (size_t)model.defaultScene : 0;
@@ -358,6 +360,8 @@ void gltf_release(struct gltf *gltf)
         free(gltf->materials[i].name);
         free(gltf->materials[i].alpha_mode);
     }
+    for (size_t i = 0; i < gltf->animation_count; i++) free(gltf->animations[i].name);
+    free(gltf->animations);
     free(gltf->buffers);
     free(gltf->views);
     free(gltf->accessors);

@@ -46,6 +46,7 @@ struct gltf_skin { int inverse_bind, *joints; size_t joint_count; };
 enum gltf_path { GLTF_TRANSLATION, GLTF_ROTATION, GLTF_SCALE };
 enum gltf_interpolation { GLTF_STEP, GLTF_LINEAR, GLTF_CUBIC };
 struct gltf_channel { int node, input, output; enum gltf_path path; enum gltf_interpolation interpolation; };
+struct gltf_animation { char *name; size_t first, count; /* of the channels */ };
 struct gltf_image { char *uri; uint8_t *data; size_t size; int view; }; /* one of the three */
 struct gltf_texture { int image, wrap_u, wrap_v; };
 struct gltf_texture_use { int texture, uv_set; double offset[2], rotation_rad, scale[2]; };
@@ -64,12 +65,13 @@ struct gltf {
     struct gltf_mesh *meshes;
     struct gltf_node *nodes;
     struct gltf_skin *skins;
-    struct gltf_channel *channels; /* of the first animation */
+    struct gltf_animation *animations;
+    struct gltf_channel *channels; /* of all animations, one after the other */
     struct gltf_image *images;
     struct gltf_texture *textures;
     struct gltf_material *materials;
     int *roots;                    /* nodes of the scene to show */
-    size_t buffer_count, view_count, accessor_count, mesh_count, node_count, skin_count, channel_count,
+    size_t buffer_count, view_count, accessor_count, mesh_count, node_count, skin_count, animation_count, channel_count,
         image_count, texture_count, material_count, root_count;
 };
 

@@ -1,4 +1,4 @@
-/* glTF 2.0: nodes, skins, and the first animation.
+/* glTF 2.0: nodes, skins and animations.
  * Src: Khronos, glTF 2.0 Specification, 3.5, 3.7.3 and 3.11 */
 #include "gen/model/model_gltf.h"
 
@@ -85,7 +85,7 @@ static bool check_keys(struct gltf_loader *l, const struct rig_channel *c, size_
     return true;
 }
 
-static bool add_channel(struct gltf_loader *l, const struct gltf_channel *from)
+static bool add_channel(struct gltf_loader *l, struct rig_animation *animation, const struct gltf_channel *from)
 {
     static const char *const what[] = { "animated translation", "animated rotation", "animated scale" };
     struct rig *rig = l->import->rig;
@@ -99,7 +99,23 @@ static bool add_channel(struct gltf_loader *l, const struct gltf_channel *from)
         !(to->value = gltf_accessor_read(l, &values, from->output, from->path == GLTF_ROTATION ? 4 : 3, what[from->path])) ||
         !check_keys(l, to, values, what[from->path])) return false;
     double end = to->time_s[to->keys - 1];
-    if (end > rig->duration_s) rig->duration_s = end;
+    if (end > animation->duration_s) animation->duration_s = end;
+    animation->count++;
+    return true;
+}
+
+static bool add_animations(struct gltf_loader *l)
+{
+    const struct gltf *g = l->gltf;
+    struct rig *rig = l->import->rig;
+    for (size_t i = 0; i < g->animation_count; i++) {
+        const struct gltf_animation *from = &g->animations[i];
+        struct rig_animation *to = &rig->animations[rig->animation_count++];
+        *to = (struct rig_animation){ .name = strdup(from->name), .first = rig->channel_count };
+        if (!to->name) return gltf_no_memory(l);
+        for (size_t k = from->first; k < from->first + from->count; k++)
+            if (!add_channel(l, to, &g->channels[k])) return false;
+    }
     return true;
 }
 
@@ -136,12 +152,11 @@ bool gltf_add_rig(struct gltf_loader *l)
     if (!rig) return gltf_no_memory(l);
     rig->entity_from_file = affine_identity;
     rig->channels = calloc(g->channel_count + 1, sizeof *rig->channels);
+    rig->animations = calloc(g->animation_count + 1, sizeof *rig->animations);
     rig->skins = calloc(g->skin_count + 1, sizeof *rig->skins);
-    if (!rig->channels || !rig->skins) return gltf_no_memory(l);
+    if (!rig->channels || !rig->animations || !rig->skins) return gltf_no_memory(l);
     rig->skin_count = g->skin_count;
-    if (!add_nodes(l) || !order_nodes(l)) return false;
-    for (size_t i = 0; i < g->channel_count; i++)
-        if (!add_channel(l, &g->channels[i])) return false;
+    if (!add_nodes(l) || !order_nodes(l) || !add_animations(l)) return false;
     for (size_t i = 0; i < g->skin_count; i++)
         if (!add_skin(l, i)) return error_prefix(l->err, "skin %zu: ", i);
     return true;

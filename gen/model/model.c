@@ -242,7 +242,7 @@ void model_destroy(struct model *model)
     free(model);
 }
 
-bool model_pose(struct model *posed, const struct model *model, double time_s, struct error *err)
+bool model_pose(struct model *posed, const struct model *model, const struct posture *posture, struct error *err)
 {
     if (!model->rig) return error_at(err, ERR_INPUT, model->path, 0, 0, "has no animation: it cannot move");
     struct model made = *model;
@@ -256,9 +256,9 @@ bool model_pose(struct model *posed, const struct model *model, double time_s, s
         mesh->normal = malloc(mesh->vertices * sizeof *mesh->normal);
         if (!mesh->position_m || !mesh->normal) error_set(err, ERR_MEMORY, "no memory for a model's pose");
     }
-    if (err->code != ERR_OK || !rig_pose(made.meshes, model->rig, time_s, err)) {
+    if (err->code != ERR_OK || !rig_pose(made.meshes, model->rig, posture, err)) {
         model_posed_release(&made);
-        error_prefix(err, "at %.3f s: ", time_s);
+        error_prefix(err, "at %.3f s: ", posture->time_s);
         return at_path(model, err);
     }
     measure(&made);

@@ -14,6 +14,7 @@
 #include <stdint.h>
 
 struct rig;
+struct posture;
 
 struct model {
     char *path;
@@ -57,13 +58,13 @@ struct model_options {
 bool model_load(struct model **model, const char *path, const struct model_options *options, struct error *err);
 void model_destroy(struct model *model);
 
-/* The model as its first animation has it at a time, which is looped. Unit and origin stay the loaded
+/* The model in a posture of its animations (gen/model/rig.h). Unit and origin stay the loaded
  * model's: the lowest point may leave the ground. What the animation itself goes along the front axis
  * is taken out, for whoever moves the model moves it.
  * Out: posed   the caller's storage: positions, normals and the box are its own, the rest is borrowed
  *              from the model, which must outlive it; its rig is NULL. Free with model_posed_release.
  * Err: ERR_INPUT at the model's path: it has no animation; a coordinate is not a number. ERR_MEMORY */
-bool model_pose(struct model *posed, const struct model *model, double time_s, struct error *err);
+bool model_pose(struct model *posed, const struct model *model, const struct posture *posture, struct error *err);
 void model_posed_release(struct model *posed);
 
 #endif

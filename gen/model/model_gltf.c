@@ -167,7 +167,7 @@ bool import_gltf(struct import *import, const char *path, struct error *err)
     struct gltf_loader l = { .import = import, .gltf = &gltf, .path = path, .default_material = -1, .err = err };
     bool ok = gltf_add_images(&l) && gltf_add_materials(&l) && gltf_add_rig(&l);
     for (size_t i = 0; ok && i < gltf.root_count; i++) ok = add_node(&l, gltf.roots[i]);
-    ok = ok && rig_wind(import->meshes, import->rig, err) && rig_pose(import->meshes, import->rig, 0, err);
+    ok = ok && rig_wind(import->meshes, import->rig, err) && rig_pose(import->meshes, import->rig, &(struct posture){ 0 }, err);
     if (!ok && !err->file[0]) snprintf(err->file, sizeof err->file, "%s", path);
     import->unit_m = 1;
     gltf_release(&gltf);

@@ -67,24 +67,56 @@ static void sample(double *out, const struct rig_channel *c, double time_s)
     }
 }
 
-/* file_from_node for every node. The caller frees; NULL: ERR_MEMORY. */
-static struct affine *place_nodes(const struct rig *rig, double time_s, struct error *err)
+/* Each node's three as an animation has them. */
+static void animate(struct rig_node *nodes, const struct rig *rig, size_t animation, double time_s)
 {
-    struct rig_node *nodes = malloc((rig->node_count + 1) * sizeof *nodes);
-    struct affine *world = malloc((rig->node_count + 1) * sizeof *world);
-    if (!nodes || !world) {
-        free(nodes);
-        free(world);
-        no_memory(err);
-        return NULL;
-    }
-    if (rig->node_count) memcpy(nodes, rig->nodes, rig->node_count * sizeof *nodes);
-    for (size_t i = 0; i < rig->channel_count; i++) {
+    if (animation >= rig->animation_count) return; /* a file without any */
+    const struct rig_animation *a = &rig->animations[animation];
+    for (size_t i = a->first; i < a->first + a->count; i++) {
         const struct rig_channel *c = &rig->channels[i];
         struct rig_node *node = &nodes[c->node];
         sample(c->path == GLTF_TRANSLATION ? node->translation : c->path == GLTF_ROTATION ? node->rotation : node->scale, c, time_s);
     }
-    for (size_t i = 0; i < rig->node_count; i++) {
+}
+
+/* A share of the way from one to the other. */
+static void blend(struct rig_node *node, const struct rig_node *to, double share)
+{
+    double from[4], end[4];
+    for (int k = 0; k < 3; k++) {
+        node->translation[k] += share * (to->translation[k] - node->translation[k]);
+        node->scale[k] += share * (to->scale[k] - node->scale[k]);
+    }
+    memcpy(from, node->rotation, sizeof from);
+    memcpy(end, to->rotation, sizeof end);
+    normalize(from);
+    normalize(end);
+    slerp(node->rotation, from, end, share);
+}
+
+/* file_from_node for every node; times are not looped here. The caller frees; NULL: ERR_MEMORY. */
+static struct affine *place_nodes(const struct rig *rig, const struct posture *posture, struct error *err)
+{
+    size_t n = rig->node_count;
+    struct rig_node *nodes = malloc((n + 1) * sizeof *nodes), *others = malloc((n + 1) * sizeof *others);
+    struct affine *world = malloc((n + 1) * sizeof *world);
+    if (!nodes || !others || !world) {
+        free(nodes);
+        free(others);
+        free(world);
+        no_memory(err);
+        return NULL;
+    }
+    if (n) memcpy(nodes, rig->nodes, n * sizeof *nodes);
+    animate(nodes, rig, posture->animation, posture->time_s);
+    if (posture->share > 0) {
+        memcpy(others, rig->nodes, n * sizeof *others);
+        animate(others, rig, posture->to, posture->to_time_s);
+        for (size_t i = 0; i < n; i++)
+            if (!nodes[i].has_matrix) blend(&nodes[i], &others[i], posture->share);
+    }
+    free(others);
+    for (size_t i = 0; i < n; i++) {
         const struct rig_node *node = &nodes[rig->order[i]];
         struct affine local = node->has_matrix ? node->matrix : affine_from_trs(node->translation, node->rotation, node->scale);
         world[rig->order[i]] = node->parent < 0 ? local : affine_multiply(&world[node->parent], &local);
@@ -123,10 +155,10 @@ static struct affine vertex_map(const struct rig_mesh *mesh, const struct affine
     return sum;
 }
 
-/* time_s is not looped here: the end of the animation is a moment of its own. */
-static bool pose_at(struct mesh *meshes, const struct rig *rig, double time_s, struct error *err)
+/* Times are not looped here: the end of an animation is a moment of its own. */
+static bool pose_at(struct mesh *meshes, const struct rig *rig, const struct posture *posture, struct error *err)
 {
-    struct affine *world = place_nodes(rig, time_s, err);
+    struct affine *world = place_nodes(rig, posture, err);
     if (!world) return false;
     for (size_t i = 0; i < rig->mesh_count && err->code == ERR_OK; i++) {
         const struct rig_mesh *from = &rig->meshes[i];
@@ -148,12 +180,26 @@ static bool pose_at(struct mesh *meshes, const struct rig *rig, double time_s, s
     return err->code == ERR_OK;
 }
 
-bool rig_pose(struct mesh *meshes, const struct rig *rig, double time_s, struct error *err)
+/* The time within a loop, and what the animation has gone in it. */
+static double looped(double *gone_m, const struct rig *rig, size_t animation, double time_s)
 {
-    double loop = rig->duration_s, at = loop > 0 ? fmod(time_s, loop) : 0;
+    *gone_m = 0;
+    if (animation >= rig->animation_count) return 0;
+    const struct rig_animation *a = &rig->animations[animation];
+    double loop = a->duration_s, at = loop > 0 ? fmod(time_s, loop) : 0;
     if (at < 0) at += loop;
-    if (!pose_at(meshes, rig, at, err)) return false;
-    float gone = loop > 0 ? (float)(rig->drift_m * at / loop) : 0;
+    if (loop > 0) *gone_m = a->drift_m * at / loop;
+    return at;
+}
+
+bool rig_pose(struct mesh *meshes, const struct rig *rig, const struct posture *posture, struct error *err)
+{
+    struct posture at = *posture;
+    double gone_m, to_gone_m;
+    at.time_s = looped(&gone_m, rig, posture->animation, posture->time_s);
+    at.to_time_s = looped(&to_gone_m, rig, posture->to, posture->to_time_s);
+    if (!pose_at(meshes, rig, &at, err)) return false;
+    float gone = (float)(gone_m + at.share * (to_gone_m - gone_m));
     for (size_t i = 0; gone != 0 && i < rig->mesh_count; i++)
         for (size_t v = 0; v < meshes[i].vertices; v++) meshes[i].position_m[v][0] -= gone;
     return true;
@@ -161,7 +207,7 @@ bool rig_pose(struct mesh *meshes, const struct rig *rig, double time_s, struct 
 
 bool rig_wind(struct mesh *meshes, const struct rig *rig, struct error *err)
 {
-    struct affine *world = place_nodes(rig, 0, err);
+    struct affine *world = place_nodes(rig, &(struct posture){ 0 }, err);
     if (!world) return false;
     for (size_t i = 0; i < rig->mesh_count && err->code == ERR_OK; i++) {
         struct affine *joint = joint_maps(rig, &rig->meshes[i], world, err);
@@ -189,11 +235,13 @@ static struct mesh *make_meshes(const struct rig *rig, struct error *err)
 
 /* A loop that walks away ends in the pose that it began with, but elsewhere: all vertices went about as
  * far. Where they only differ, as in a clip that does not close, nobody has gone anywhere. */
-bool rig_measure_drift(struct rig *rig, struct error *err)
+static bool measure_drift(struct rig_animation *animation, const struct rig *rig, struct error *err)
 {
     struct mesh *begin = make_meshes(rig, err), *end = make_meshes(rig, err);
     double sum = 0, squares = 0, count = 0;
-    bool posed = err->code == ERR_OK && pose_at(begin, rig, 0, err) && pose_at(end, rig, rig->duration_s, err);
+    size_t which = (size_t)(animation - rig->animations);
+    bool posed = err->code == ERR_OK && pose_at(begin, rig, &(struct posture){ .animation = which }, err) &&
+                 pose_at(end, rig, &(struct posture){ .animation = which, .time_s = animation->duration_s }, err);
     for (size_t i = 0; i < rig->mesh_count; i++) {
         for (size_t v = 0; posed && v < begin[i].vertices; v++) {
             double gone = (double)end[i].position_m[v][0] - (double)begin[i].position_m[v][0];
@@ -208,7 +256,14 @@ bool rig_measure_drift(struct rig *rig, struct error *err)
     free(end);
     if (!posed) return false;
     double mean = count > 0 ? sum / count : 0, spread = sqrt(fmax(count > 0 ? squares / count - mean * mean : 0, 0));
-    rig->drift_m = fabs(mean) > 2 * spread ? mean : 0;
+    animation->drift_m = fabs(mean) > 2 * spread ? mean : 0;
+    return true;
+}
+
+bool rig_measure_drift(struct rig *rig, struct error *err)
+{
+    for (size_t i = 0; i < rig->animation_count; i++)
+        if (!measure_drift(&rig->animations[i], rig, err)) return false;
     return true;
 }
 
@@ -248,7 +303,7 @@ static bool follow(struct rig_mesh *to, const struct mesh *mesh, const struct af
 
 bool rig_follow(struct rig *rig, const struct mesh *meshes, struct error *err)
 {
-    struct affine *world = place_nodes(rig, 0, err);
+    struct affine *world = place_nodes(rig, &(struct posture){ 0 }, err);
     for (size_t i = 0; world && i < rig->mesh_count && err->code == ERR_OK; i++) {
         struct affine *joint = joint_maps(rig, &rig->meshes[i], world, err);
         if (joint) follow(&rig->meshes[i], &meshes[i], joint, err);
@@ -288,6 +343,10 @@ static uint64_t hash_mesh(uint64_t hash, const struct rig_mesh *mesh)
 uint64_t rig_hash(uint64_t hash, const struct rig *rig)
 {
     for (size_t i = 0; i < rig->node_count; i++) hash = hash_node(hash, &rig->nodes[i]);
+    for (size_t i = 0; i < rig->animation_count; i++) {
+        const struct rig_animation *a = &rig->animations[i];
+        hash = hash_bytes(hash_bytes(hash, a->name, strlen(a->name)), &a->first, sizeof a->first);
+    }
     for (size_t i = 0; i < rig->channel_count; i++) hash = hash_channel(hash, &rig->channels[i]);
     for (size_t i = 0; i < rig->skin_count; i++) {
         const struct rig_skin *skin = &rig->skins[i];
@@ -319,6 +378,8 @@ void rig_destroy(struct rig *rig)
         free(rig->skins[i].inverse_bind);
     }
     for (size_t i = 0; i < rig->mesh_count; i++) rig_mesh_release(&rig->meshes[i]);
+    for (size_t i = 0; i < rig->animation_count; i++) free(rig->animations[i].name);
+    free(rig->animations);
     free(rig->nodes);
     free(rig->order);
     free(rig->channels);

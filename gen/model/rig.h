@@ -1,4 +1,4 @@
-/* A model that moves: its nodes, what its first animation does to them, and how vertices follow.
+/* A model that moves: its nodes, what its animations do to them, and how vertices follow.
  * All of it is in the file's own coordinates, and stays so until a mesh is posed. */
 #ifndef STAFFAGE_GEN_RIG_H
 #define STAFFAGE_GEN_RIG_H
@@ -41,31 +41,40 @@ struct rig_mesh {                   /* how one mesh follows */
     size_t vertices;
 };
 
+struct rig_animation {
+    char *name;                     /* as the file has it; maybe empty */
+    size_t first, count;            /* of the channels */
+    double duration_s;              /* of a loop: the last key */
+    double drift_m;                 /* what it goes along the front axis in a loop: posing takes it out */
+};
+
+/* What a body does at a moment: an animation at a time, looped, and a share of the way from it to another. */
+struct posture { size_t animation; double time_s; size_t to; double to_time_s, share; /* 0: none of it */ };
+
 struct rig {
     struct rig_node *nodes;
     size_t *order;                  /* (nodes) parents before their children */
+    struct rig_animation *animations; /* at rest the model is as the first begins */
     struct rig_channel *channels;
     struct rig_skin *skins;
     struct rig_mesh *meshes;        /* one a mesh of the model, in its order */
-    size_t node_count, channel_count, skin_count, mesh_count;
-    double duration_s;              /* of a loop: the last key */
+    size_t node_count, animation_count, channel_count, skin_count, mesh_count;
     struct affine entity_from_file; /* identity until the model stands */
-    double drift_m;                 /* what the animation itself goes along the front axis in a loop: posing takes it out */
 };
 
-/* Meshes that were posed at time 0 have come to their final vertices and normals, which `source` tells
+/* Meshes that were posed at rest have come to their final vertices and normals, which `source` tells
  * of: let the rig's own follow. Err: ERR_MEMORY */
 bool rig_follow(struct rig *rig, const struct mesh *meshes, struct error *err);
 
-/* Where the vertices are at a time, looped.
+/* Where the vertices are in a posture.
  * Out: meshes   (mesh_count) positions and, where they have them, normals, in place; entity axes
  * Err: ERR_MEMORY; ERR_INPUT without a place: a coordinate that is not a number */
-bool rig_pose(struct mesh *meshes, const struct rig *rig, double time_s, struct error *err);
+bool rig_pose(struct mesh *meshes, const struct rig *rig, const struct posture *posture, struct error *err);
 
-/* Turn triangles around whose vertices the pose at time 0 mirrors. Err: ERR_MEMORY */
+/* Turn triangles around whose vertices the pose at rest mirrors. Err: ERR_MEMORY */
 bool rig_wind(struct mesh *meshes, const struct rig *rig, struct error *err);
 
-/* Find drift_m. The model must stand. Err: as rig_pose */
+/* Find the animations' drift_m. The model must stand. Err: as rig_pose */
 bool rig_measure_drift(struct rig *rig, struct error *err);
 
 /* Of all that poses follow from. */

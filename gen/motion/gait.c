@@ -61,7 +61,8 @@ static bool bridge(double *step_m, const bool *grounded)
 }
 
 /* Out: step_m (SAMPLES) what the body goes in each interval; low_m (SAMPLES + 1) its lowest point */
-static bool measure(double *step_m, double *low_m, bool *grounded, const struct model *model, double duration_s, struct error *err)
+static bool measure(double *step_m, double *low_m, bool *grounded, const struct model *model, size_t animation, double duration_s,
+                    struct error *err)
 {
     double sole_m = SOLE_SHARE * model->max_m.z;
     size_t vertices = 0;
@@ -70,7 +71,8 @@ static bool measure(double *step_m, double *low_m, bool *grounded, const struct 
     struct model from = { 0 }, to = { 0 };
     if (!touches.list) error_set(err, ERR_MEMORY, "no memory for a gait");
     for (int i = 0; i <= SAMPLES && err->code == ERR_OK; i++) {
-        if (!model_pose(&to, model, duration_s * i / SAMPLES, err)) break;
+        struct posture posture = { .animation = animation, .time_s = duration_s * i / SAMPLES };
+        if (!model_pose(&to, model, &posture, err)) break;
         low_m[i] = to.min_m.z;
         if (i > 0) {
             find_touches(&touches, &from, &to, sole_m);
@@ -86,14 +88,14 @@ static bool measure(double *step_m, double *low_m, bool *grounded, const struct 
     return err->code == ERR_OK;
 }
 
-bool gait_create(struct gait *gait, const struct model *model, struct error *err)
+bool gait_create(struct gait *gait, const struct model *model, size_t animation, struct error *err)
 {
     double step_m[SAMPLES], low_m[SAMPLES + 1], ground_m = INFINITY, stride_m = 0, height_m = model->max_m.z;
     bool grounded[SAMPLES];
-    if (!model->rig) return error_at(err, ERR_INPUT, model->path, 0, 0, "has no animation: it cannot walk");
-    double duration_s = model->rig->duration_s;
+    if (!model->rig || animation >= model->rig->animation_count) return error_at(err, ERR_INPUT, model->path, 0, 0, "has no animation: it cannot walk");
+    double duration_s = model->rig->animations[animation].duration_s;
     if (!(duration_s > 0)) return error_at(err, ERR_INPUT, model->path, 0, 0, "its animation is a single moment: it cannot walk");
-    if (!measure(step_m, low_m, grounded, model, duration_s, err)) return false;
+    if (!measure(step_m, low_m, grounded, model, animation, duration_s, err)) return false;
     for (int i = 0; i <= SAMPLES; i++) ground_m = fmin(ground_m, low_m[i]);
     for (int i = 0; i < SAMPLES; i++)
         grounded[i] = grounded[i] && fmax(low_m[i], low_m[i + 1]) < ground_m + AIR_SHARE * height_m;

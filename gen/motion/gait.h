@@ -1,4 +1,4 @@
-/* How a rigged model walks: its own animation, played by the distance gone, so that no foot slides. */
+/* How a rigged model walks: its own animations, played by the distance gone, so that no foot slides. */
 #ifndef STAFFAGE_GEN_GAIT_H
 #define STAFFAGE_GEN_GAIT_H
 
@@ -6,6 +6,7 @@
 #include "lib/error.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 
 /* Of one animation: what the body must move forward, at each time of the loop, for the planted
  * foot to stay where it is. */
@@ -17,10 +18,10 @@ struct gait {
     bool walks;           /* false: feet stay (somebody stands): time runs by itself */
 };
 
-/* Measure the model's first animation.
+/* Measure one of the model's animations.
  * Err: ERR_INPUT at the model's path: it has no animation; no foot is ever on the ground; it walks
  *      backwards, so that its front axis cannot be right */
-bool gait_create(struct gait *gait, const struct model *model, struct error *err);
+bool gait_create(struct gait *gait, const struct model *model, size_t animation, struct error *err);
 void gait_release(struct gait *gait);
 /* The animation's time (0 to duration_s) after a distance, from a phase (0..1) of the loop. For whom
  * stays it is the phase's time alone: add the time that passes, model_pose loops it. */

@@ -198,6 +198,7 @@ size_t traffic_at(const struct traffic *traffic, struct mover *movers, double t_
             .p_m = { a->p_m.x + part * (b->p_m.x - a->p_m.x), a->p_m.y + part * (b->p_m.y - a->p_m.y) },
             .heading_rad = remainder(a->heading_rad + part * turn, 2 * M_PI),
             .speed_m_s = a->speed_m_s + part * ((double)b->speed_m_s - a->speed_m_s),
+            .wish_m_s = trail->character.body.wish_m_s,
             .distance_m = a->gone_m + part * ((double)b->gone_m - a->gone_m),
             .phase = trail->character.phase,
         };

@@ -50,7 +50,7 @@ struct mover {
     int color;               /* -1: none */
     struct vec2 p_m;         /* middle of the body, world */
     double heading_rad;      /* clockwise from +y */
-    double speed_m_s;
+    double speed_m_s, wish_m_s; /* as it goes now; as it would where nothing is in its way */
     double distance_m;       /* gone since it appeared: drives its gait */
     double phase;            /* 0..1: people are out of step */
 };

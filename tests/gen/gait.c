@@ -31,7 +31,7 @@ static void walk(const struct model *model, const struct gait *gait, double spee
         double gone_m = speed_m_s * f / 50;
         struct model posed;
         bool stands = false;
-        if (!model_pose(&posed, model, gait_time(gait, gone_m, 0.3), &err)) break;
+        if (!model_pose(&posed, model, &(struct posture){ .time_s = gait_time(gait, gone_m, 0.3) }, &err)) break;
         for (size_t i = 0; i < posed.mesh_count; offset += posed.meshes[i++].vertices)
             for (size_t v = 0; v < posed.meshes[i].vertices; v++) {
                 const float *p = posed.meshes[i].position_m[v];
@@ -60,7 +60,7 @@ static void walkers_keep_their_feet_still(void)
         struct error err = ERROR_NONE;
         struct gait gait;
         struct model *m = load_walker(walkers[i]);
-        if (!OK(m && gait_create(&gait, m, &err), "%s has a gait", walkers[i])) continue;
+        if (!OK(m && gait_create(&gait, m, 0, &err), "%s has a gait", walkers[i])) continue;
         /* Made by its program for 1.42 and 1.36 m at 1.78 m of height, in a loop of a second. */
         NEAR(gait.stride_m, i ? 1.264 : 1.416, 0.01, "its stride is what it was made for");
         OK(gait.walks && gait.duration_s == 1, "it walks, in a loop of a second");
@@ -76,7 +76,7 @@ static void unsteady_roots_are_made_good(void)
     struct error err = ERROR_NONE;
     struct gait gait;
     struct model *m = load(put_going("unsteady.glb", walkers[0], 1.2, 0.04), &(struct model_options){ 0 });
-    if (!OK(m && m->rig->drift_m > 1.1 && gait_create(&gait, m, &err), "a walker whose root goes ahead unsteadily has a gait")) return;
+    if (!OK(m && m->rig->animations[0].drift_m > 1.1 && gait_create(&gait, m, 0, &err), "a walker whose root goes ahead unsteadily has a gait")) return;
     NEAR(gait.stride_m, 1.416, 0.01, "of the same stride");
     NEAR(gait.advance_m[gait.samples / 4], 1.416 / 4 - 0.04, 0.01, "unsteady against the root's way");
     walk(m, &gait, 1.35, "unsteady.glb");
@@ -89,7 +89,7 @@ static void distance_tells_the_time(void)
     struct error err = ERROR_NONE;
     struct gait gait;
     struct model *m = load_walker(walkers[0]);
-    if (!OK(m && gait_create(&gait, m, &err), "a walker has a gait")) return;
+    if (!OK(m && gait_create(&gait, m, 0, &err), "a walker has a gait")) return;
     bool ascending = gait.advance_m[0] == 0 && gait.advance_m[gait.samples] == gait.stride_m;
     for (int i = 0; i < gait.samples; i++) ascending = ascending && gait.advance_m[i + 1] >= gait.advance_m[i];
     OK(ascending, "the way ascends from 0 to the stride");
@@ -130,14 +130,14 @@ static void who_stands_stands(void)
     struct error err = ERROR_NONE;
     struct gait gait;
     struct model *m = load(put_gltf("nod.gltf", &b, file), &as_in_file);
-    if (OK(m && gait_create(&gait, m, &err), "somebody who nods has a gait")) {
+    if (OK(m && gait_create(&gait, m, 0, &err), "somebody who nods has a gait")) {
         OK(!gait.walks && gait.duration_s == 2, "but does not walk");
         NEAR(gait_time(&gait, 5, 0.25), 0.5, 1e-12, "so that distance does not move it");
         gait_release(&gait);
     }
     model_destroy(m);
     m = load(put_text("still.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), &metres_z_up);
-    OK(m && !gait_create(&gait, m, &err) && err.code == ERR_INPUT && !strcmp(path_name(err.file), "still.obj") && !strcmp(err.text, "has no animation: it cannot walk"), "refuses a model without animation");
+    OK(m && !gait_create(&gait, m, 0, &err) && err.code == ERR_INPUT && !strcmp(path_name(err.file), "still.obj") && !strcmp(err.text, "has no animation: it cannot walk"), "refuses a model without animation");
     model_destroy(m);
 }
 
@@ -146,7 +146,7 @@ static void wrong_fronts_are_refused(void)
     struct error err = ERROR_NONE;
     struct gait gait;
     struct model *m = load(in_folder("top_builddir", walkers[0]), &(struct model_options){ .axes_given = true, .up = AXIS_POS_Y, .front = AXIS_NEG_Z });
-    OK(m && !gait_create(&gait, m, &err) && err.code == ERR_INPUT && !strcmp(err.text, "walks backwards, 1.42 m in a loop: the opposite front axis would be right"), "refuses who walks backwards, and says why");
+    OK(m && !gait_create(&gait, m, 0, &err) && err.code == ERR_INPUT && !strcmp(err.text, "walks backwards, 1.42 m in a loop: the opposite front axis would be right"), "refuses who walks backwards, and says why");
     if (err.code != ERR_OK) printf("# %s\n", err.text);
     model_destroy(m);
 }

@@ -135,7 +135,7 @@ static void check_gait(const struct stage *stage)
 {
     struct moment now = at(stage, 1);
     if (!OK(now.n >= GIVEN && now.posed_count >= 2, "walkers are posed")) return;
-    const struct gait *gait = &stage->gaits[now.model_index[WALKER]];
+    const struct gait *gait = &stage->repertoires[now.model_index[WALKER]].gait[PACE_WALK];
     double loop_s = gait->stride_m / 1.4;
     struct moment later = at(stage, 1 + loop_s), half = at(stage, 1 + loop_s / 2), before = at(stage, 1 - 2 * loop_s);
     NEAR(apart(now.entities[WALKER].model, later.entities[WALKER].model), 0, 1e-4, "a stride later the same pose");

@@ -20,14 +20,14 @@ static const float *find_vertex(const struct model *shape, const struct model *m
 static void awkward_features_agree(void)
 {
     struct model *m = load(in_folder("top_srcdir", "tests/input/skinned.gltf"), &(struct model_options){ 0 });
-    if (!OK(m && m->rig && m->mesh_count == 2 && m->rig->skin_count == 2 && m->rig->duration_s == 2, "a file of two skins is loaded with its rig")) return;
+    if (!OK(m && m->rig && m->mesh_count == 2 && m->rig->skin_count == 2 && m->rig->animations[0].duration_s == 2, "a file of two skins is loaded with its rig")) return;
     struct error err = ERROR_NONE;
     double worst = 0;
     m->rig->entity_from_file = affine_identity;
-    m->rig->drift_m = 0;
+    m->rig->animations[0].drift_m = 0;
     for (size_t i = 0; i < COUNT(skinned); i++) {
         const struct known *k = &skinned[i];
-        if (!rig_pose(m->meshes, m->rig, k->time_s, &err)) break;
+        if (!rig_pose(m->meshes, m->rig, &(struct posture){ .time_s = k->time_s }, &err)) break;
         for (int c = 0; c < 3; c++) worst = fmax(worst, fabs((double)m->meshes[k->mesh].position_m[k->vertex][c] - k->p[c]));
     }
     OK(err.code == ERR_OK, "it can be posed");
@@ -45,7 +45,7 @@ static void walker_agrees(const char *name, const struct known *known, size_t co
     double worst = 0, shift[3] = { 0 };
     for (size_t i = 0; i < count; i++) {
         struct model posed;
-        if (!model_pose(&posed, m, known[i].time_s, &err)) break;
+        if (!model_pose(&posed, m, &(struct posture){ .time_s = known[i].time_s }, &err)) break;
         const float *got = find_vertex(&posed, m, known[i].vertex);
         const double want[3] = { known[i].p[2], known[i].p[0], known[i].p[1] };
         for (int c = 0; got && c < 3; c++) {
@@ -82,7 +82,7 @@ static void poses_are_the_loaded_models(void)
     static const double times[] = { 0, 0.37, 5.37, -0.63 };
     if (!m || !twice) return;
     for (int i = 0; i < 4; i++)
-        if (!OK(model_pose(&at[i], m, times[i], &err), "the walker is posed at %g s", times[i])) return;
+        if (!OK(model_pose(&at[i], m, &(struct posture){ .time_s = times[i] }, &err), "the walker is posed at %g s", times[i])) return;
     NEAR(largest_difference(&at[0], m, 1), 0, 1e-5, "at time 0 it is as it was loaded");
     OK(largest_difference(&at[1], m, 1) > 0.05, "at another time it is not");
     NEAR(largest_difference(&at[1], &at[2], 1), 0, 1e-5, "time loops");
@@ -92,7 +92,7 @@ static void poses_are_the_loaded_models(void)
         for (size_t v = 0; v < m->meshes[i].vertices; v++) top = fmax(top, (double)at[1].meshes[i].position_m[v][2]);
     OK(at[1].max_m.z == top && at[1].max_m.z > m->max_m.z + 0.005, "the box is the pose's");
     OK(at[1].meshes[0].triangle == m->meshes[0].triangle && at[1].materials == m->materials && !at[1].rig, "what does not move is borrowed");
-    if (OK(model_pose(&large, twice, 0.37, &err), "a model of another unit is posed")) {
+    if (OK(model_pose(&large, twice, &(struct posture){ .time_s = 0.37 }, &err), "a model of another unit is posed")) {
         NEAR(largest_difference(&at[1], &large, 2), 0, 1e-5, "in its unit, from the same origin");
         model_posed_release(&large);
     }
@@ -116,7 +116,7 @@ static void poses_are_the_loaded_models(void)
     model_destroy(twice);
     err = ERROR_NONE;
     m = load(put_text("still.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), &metres_z_up);
-    OK(m && !m->rig && !model_pose(&large, m, 0, &err) && err.code == ERR_INPUT && strstr(err.text, "has no animation"), "a model without animation has no rig and cannot be posed");
+    OK(m && !m->rig && !model_pose(&large, m, &(struct posture){ .time_s = 0 }, &err) && err.code == ERR_INPUT && strstr(err.text, "has no animation"), "a model without animation has no rig and cannot be posed");
     model_destroy(m);
 }
 
@@ -127,10 +127,10 @@ static void root_motion_is_taken_out(void)
     struct model *still = load(in_folder("top_builddir", walker), &(struct model_options){ 0 });
     struct model *going = load(put_going("going.glb", walker, 1.3, 0), &(struct model_options){ 0 });
     struct model a, b;
-    if (OK(still && going && model_pose(&a, still, 0.6, &err) && model_pose(&b, going, 0.6, &err), "one walks on the spot, one ahead")) {
-        NEAR(going->rig->drift_m, 1.3, 1e-4, "what the root goes in a loop is found");
+    if (OK(still && going && model_pose(&a, still, &(struct posture){ .time_s = 0.6 }, &err) && model_pose(&b, going, &(struct posture){ .time_s = 0.6 }, &err), "one walks on the spot, one ahead")) {
+        NEAR(going->rig->animations[0].drift_m, 1.3, 1e-4, "what the root goes in a loop is found");
         NEAR(largest_difference(&a, &b, 1), 0, 1e-5, "and taken out: both walk on the spot");
-        OK(still->rig->drift_m == 0, "who walks on the spot goes nowhere");
+        OK(still->rig->animations[0].drift_m == 0, "who walks on the spot goes nowhere");
         model_posed_release(&a);
         model_posed_release(&b);
     }
@@ -204,7 +204,7 @@ static void skins_are_applied(void)
     m = load(put_skin("animated.gltf", &b, moving_nodes), &as_in_file);
     OK(is_turned(m), "the first animation at time 0 is the pose");
     /* At its end the second joint only lifts by 1: (1,0,4), and half of it (1,0,3.5). The origin is (0.5,-1,0). */
-    OK(m && model_pose(&posed, m, 0.999999, &err) && has_vertex(&posed, 0.5, 1, 4) && has_vertex(&posed, 0.5, 1, 3.5) && posed.min_m.z == 0, "and at its end its end's, from the origin of the start");
+    OK(m && model_pose(&posed, m, &(struct posture){ .time_s = 0.999999 }, &err) && has_vertex(&posed, 0.5, 1, 4) && has_vertex(&posed, 0.5, 1, 3.5) && posed.min_m.z == 0, "and at its end its end's, from the origin of the start");
     if (m && err.code == ERR_OK) model_posed_release(&posed);
     model_destroy(m);
     /* The third corner's half for the second joint comes from a second set, in normalized bytes. */
