@@ -10,6 +10,7 @@ struct quadric { double xx, xy, xz, yy, yz, zz, bx, by, bz, c; };
 struct edge { double cost; uint32_t from, to, version; struct vec3 at; };
 
 #define NONE UINT32_MAX
+#define WELD_M 2e-4
 struct work {
     struct hull *hull;
     struct quadric *quadric;     /* (points) */
@@ -226,6 +227,31 @@ static void begin(struct work *w, const double *weight)
         }
 }
 
+static uint32_t root(uint32_t *parent, uint32_t p)
+{
+    while (parent[p] != p) p = parent[p] = parent[parent[p]];
+    return p;
+}
+
+/* What no collapse could mend: points nearly at one place become one, and the faces between them go. */
+static void weld(struct work *w)
+{
+    struct hull *h = w->hull;
+    uint32_t *parent = need(malloc((h->points + 1) * sizeof *parent));
+    for (uint32_t p = 0; p < h->points; p++) parent[p] = p;
+    for (size_t t = 0; t < h->triangles; t++)
+        for (int k = 0; k < 3 && !w->gone[t]; k++) {
+            uint32_t a = h->triangle[t][k], b = h->triangle[t][(k + 1) % 3];
+            if (vec3_norm(vec3_sub(h->point[a], h->point[b])) < WELD_M) parent[root(parent, a)] = root(parent, b);
+        }
+    for (size_t t = 0; t < h->triangles; t++) {
+        uint32_t *at = h->triangle[t];
+        for (int k = 0; k < 3; k++) at[k] = root(parent, at[k]);
+        if (at[0] == at[1] || at[1] == at[2] || at[2] == at[0]) w->gone[t] = true;
+    }
+    free(parent);
+}
+
 static void compact(struct work *w)
 {
     struct hull *h = w->hull;
@@ -257,6 +283,7 @@ void hull_decimate(struct hull *hull, size_t triangles, const double *weight)
             !keeps_facing(&w, edge.to, edge.from, edge.at)) continue;
         left -= collapse(&w, &edge);
     }
+    weld(&w);
     compact(&w);
     free(w.quadric), free(w.version), free(w.mark), free(w.first), free(w.next), free(w.gone), free(w.heap);
 }

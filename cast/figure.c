@@ -54,26 +54,68 @@ static void bind_vertex(struct skin_vertex *v, const struct garment *g, const st
         if (!v->weight[k]) v->joint[k] = 0;
 }
 
-/* All garments of a piece, as one list of vertices. */
-static struct skin_piece make_piece(enum piece piece, const struct hull *hull, const struct wardrobe *wardrobe, const struct body *body, double step_m)
+/* Of a point: for the faces that look about where its surface does, and for those beyond an edge. */
+struct normals { struct vec3 smooth, beyond; };
+
+static struct vec3 face_of(const struct hull *hull, size_t triangle)
 {
-    struct skin_piece made = { .material = materials[piece].name, .roughness = materials[piece].roughness };
-    uint16_t *number = need(calloc(hull->points + 1, sizeof *number));
-    made.vertex = need(malloc((hull->points + 1) * sizeof *made.vertex));
-    made.index = need(malloc((3 * hull->triangles + 1) * sizeof *made.index));
+    const uint32_t *at = hull->triangle[triangle];
+    struct vec3 a = hull->point[at[0]];
+    return vec3_cross(vec3_sub(hull->point[at[1]], a), vec3_sub(hull->point[at[2]], a)); /* as long as twice its area */
+}
+
+static bool is_beyond(struct vec3 face, struct vec3 normal) { return vec3_dot(face, normal) < 0.15 * vec3_norm(face); }
+
+/* The shape's own normals tell of more than the triangles do, the less so the fewer those are. */
+static struct normals *make_normals(const struct hull *hull, const struct wardrobe *wardrobe, int level)
+{
+    static const double step_m[3] = { 0.002, 0.006, 0.015 }, share[3] = { 0.3, 0.55, 0.75 }; /* of the faces' mean */
+    struct normals *made = need(calloc(hull->points + 1, sizeof *made));
+    for (size_t c = 0; c < 3 * hull->triangles; c++) {
+        struct vec3 *sum = &made[hull->triangle[c / 3][c % 3]].smooth;
+        *sum = vec3_add(*sum, face_of(hull, c / 3));
+    }
     for (size_t i = 0; i < hull->points; i++) {
         const struct garment *g = &wardrobe->garment[hull->piece[i]];
-        if (g->piece != piece) continue;
-        struct skin_vertex *v = &made.vertex[made.vertices];
-        if (made.vertices > UINT16_MAX) abort();
-        number[i] = (uint16_t)made.vertices++;
-        *v = (struct skin_vertex){ .position = hull->point[i], .normal = field_normal(&g->shape, hull->point[i], fmax(step_m, 0.4 * g->cell_m)),
-                                   .uv = texture_place(piece, body, hull->point[i]) };
-        bind_vertex(v, g, body, hull->point[i]);
+        struct vec3 own = field_normal(&g->shape, hull->point[i], fmax(step_m[level], 0.4 * g->cell_m)), faces = made[i].smooth;
+        double n = vec3_norm(faces);
+        faces = n > 0 ? vec3_scale(faces, 1 / n) : own;
+        struct vec3 sum = vec3_add(vec3_scale(own, 1 - share[level]), vec3_scale(faces, share[level]));
+        made[i].smooth = vec3_norm(sum) > 0.1 ? vec3_unit(sum) : faces;
     }
     for (size_t c = 0; c < 3 * hull->triangles; c++) {
+        struct normals *at = &made[hull->triangle[c / 3][c % 3]];
+        struct vec3 face = face_of(hull, c / 3);
+        if (is_beyond(face, at->smooth)) at->beyond = vec3_add(at->beyond, face);
+    }
+    return made;
+}
+
+static uint16_t add_vertex(struct skin_piece *made, struct vec3 p, struct vec3 normal, enum piece piece, const struct garment *g, const struct body *body)
+{
+    struct skin_vertex *v = &made->vertex[made->vertices];
+    if (made->vertices > UINT16_MAX) abort();
+    *v = (struct skin_vertex){ .position = p, .normal = normal, .uv = texture_place(piece, body, p) };
+    bind_vertex(v, g, body, p);
+    return (uint16_t)made->vertices++;
+}
+
+/* All garments of a piece, as one list of vertices. */
+static struct skin_piece make_piece(enum piece piece, const struct hull *hull, const struct normals *normals, const struct wardrobe *wardrobe, const struct body *body)
+{
+    struct skin_piece made = { .material = materials[piece].name, .roughness = materials[piece].roughness };
+    int32_t(*number)[2] = need(malloc((hull->points + 1) * sizeof *number)); /* of both kinds; -1 as long as there is none */
+    memset(number, -1, (hull->points + 1) * sizeof *number);
+    made.vertex = need(malloc((2 * hull->points + 1) * sizeof *made.vertex));
+    made.index = need(malloc((3 * hull->triangles + 1) * sizeof *made.index));
+    for (size_t c = 0; c < 3 * hull->triangles; c++) {
         uint32_t at = hull->triangle[c / 3][c % 3];
-        if (wardrobe->garment[hull->piece[at]].piece == piece) made.index[made.indices++] = number[at];
+        const struct garment *g = &wardrobe->garment[hull->piece[at]];
+        if (g->piece != piece) continue;
+        int beyond = is_beyond(face_of(hull, c / 3), normals[at].smooth);
+        struct vec3 normal = beyond ? vec3_unit(normals[at].beyond) : normals[at].smooth;
+        if (number[at][beyond] < 0) number[at][beyond] = add_vertex(&made, hull->point[at], normal, piece, g, body);
+        made.index[made.indices++] = (uint16_t)number[at][beyond];
     }
     free(number);
     return made;
@@ -83,10 +125,10 @@ static bool write_level(int level, const struct hull *hull, const struct wardrob
                         const struct body *body, const struct clip *clips, const struct texture *texture, const char *folder, struct error *err)
 {
     struct skin_piece pieces[PIECE_COUNT];
-    static const double step_m[3] = { 0.002, 0.006, 0.015 };
+    struct normals *normals = make_normals(hull, wardrobe, level);
     int count = 0;
     for (int piece = 0; piece < PIECE_COUNT; piece++) {
-        pieces[count] = make_piece((enum piece)piece, hull, wardrobe, body, step_m[level]);
+        pieces[count] = make_piece((enum piece)piece, hull, normals, wardrobe, body);
         if (pieces[count].indices) count++;
         else free(pieces[count].vertex), free(pieces[count].index);
     }
@@ -97,6 +139,7 @@ static bool write_level(int level, const struct hull *hull, const struct wardrob
     char *path = string_format("%s/%s%s.glb", folder, person->name, suffix[level]);
     bool good = path && write_skin_glb(path, &skin, err);
     for (int i = 0; i < count; i++) free(pieces[i].vertex), free(pieces[i].index);
+    free(normals);
     free(png);
     free(path);
     return good;
@@ -107,17 +150,28 @@ static void weigh(double *weight, const struct wardrobe *wardrobe, int level)
     for (int i = 0; i < wardrobe->count; i++) weight[i] = weights[level][wardrobe->garment[i].piece];
 }
 
-/* Standing, arms down: as long and as wide as it is from near. */
-static struct vec3 standing_size(const struct hull *hull, const struct body *body)
+/* Length, width, height of its surface as it begins to stand. */
+static struct vec3 standing_size(const struct hull *hull, const struct wardrobe *wardrobe, const struct body *body, const struct clip *stand)
 {
-    struct vec3 low = hull->point[0], high = low;
+    struct pose at[JOINT_COUNT]; /* takes what is bound to a joint there */
+    struct vec3 low = vec3(1e9, 1e9, 1e9), high = vec3(-1e9, -1e9, -1e9);
+    for (int j = 0; j < JOINT_COUNT; j++) {
+        int parent = joint_parent(j);
+        struct pose own = { mat3_from_quat(stand->turn[j][0]), parent < 0 ? stand->hips[0] : vec3_sub(body->at[j], body->at[parent]) };
+        at[j] = parent < 0 ? own : pose_compose(at[parent], own);
+    }
     for (size_t i = 0; i < hull->points; i++) {
-        struct vec3 p = hull->point[i];
+        const struct garment *g = &wardrobe->garment[hull->piece[i]];
+        double w[JOINT_COUNT] = { 0 };
+        struct vec3 p = { 0, 0, 0 };
+        if (g->joint >= 0) w[g->joint] = 1;
+        else bind_point(w, body, hull->point[i], g->drape);
+        for (int j = 0; j < JOINT_COUNT; j++)
+            if (w[j] > 0) p = vec3_add(p, vec3_scale(pose_apply(at[j], vec3_sub(hull->point[i], body->at[j])), w[j]));
         low = vec3(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
         high = vec3(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
     }
-    double lowered = 2 * (body->at[LIMB(0, HAND)].y - body->trunk.station[2].side - 0.05); /* from where the arms are bound */
-    return vec3(high.x - low.x, high.y - low.y - lowered, high.z - low.z);
+    return vec3_sub(high, low);
 }
 
 static bool list_person(struct listing *listing, const struct person *person, struct vec3 size, const size_t count[3], struct error *err)
@@ -154,10 +208,10 @@ static bool write_person(struct listing *listing, const struct person *person, c
         weigh(weight, wardrobe, level);
         hull_decimate(&hull, triangles[level], weight);
         count[level] = hull.triangles;
-        if (level == 0) size = standing_size(&hull, &body);
         struct sole sole = sole_create(&body, &hull, 0);
         for (int motion = 0; motion < MOTION_COUNT; motion++) make_clip(&clips[motion], (enum motion)motion, person, &body, &sole);
         sole_release(&sole);
+        if (level == 0) size = standing_size(&hull, wardrobe, &body, &clips[STAND]);
         good = write_level(level, &hull, wardrobe, person, &body, clips, texture, folder, err);
     }
     hull_release(&hull);

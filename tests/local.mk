@@ -191,6 +191,11 @@ tests_gen_casting_test_SOURCES = %D%/gen/casting.c %D%/gen/model_files.h %D%/tap
 nodist_EXTRA_tests_gen_casting_test_SOURCES = dummy.cxx
 tests_gen_casting_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/cast/people.test
+tests_cast_people_test_SOURCES = %D%/cast/people.c %D%/tap.h
+nodist_EXTRA_tests_cast_people_test_SOURCES = dummy.cxx
+tests_cast_people_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/catalogue.test
 tests_gen_catalogue_test_SOURCES = %D%/gen/catalogue.c %D%/gen/model_files.h %D%/tap.h
 nodist_EXTRA_tests_gen_catalogue_test_SOURCES = dummy.cxx

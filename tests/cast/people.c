@@ -1,0 +1,213 @@
+/* The people of the cast, as their files have them: sound surfaces, true sizes, feet that stay where they tread. */
+#include "gen/model/catalogue.h"
+#include "gen/model/gltf.h"
+#include "gen/model/rig.h"
+#include "gen/motion/gait.h"
+#include "tests/tap.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Stature without shoes, by the tables that docs/cast.md names (children: WHO's medians). */
+static const struct { const char *name; double stature_m; } statures[] = {
+    { "man-jacket", 1.79 }, { "man-shirt", 1.83 }, { "man-heavy", 1.76 }, { "man-sweater", 1.72 }, { "woman-leggings", 1.71 },
+    { "woman-heavy", 1.62 }, { "boy-6", 1.16 }, { "girl-9", 1.325 }
+};
+static const char *const paces[] = { "walk", "slow_walk", "run", "stand" };
+
+/* --- surfaces --- */
+
+struct side { float a[3], b[3]; int way; };
+
+static int by_ends(const void *x, const void *y)
+{
+    const struct side *p = x, *q = y;
+    int order = memcmp(p->a, q->a, sizeof p->a);
+    return order ? order : memcmp(p->b, q->b, sizeof p->b);
+}
+
+/* Sides of triangles that have no other triangle on their other side. */
+static size_t open_sides(const struct model *m)
+{
+    size_t count = 0, open = 0;
+    for (size_t i = 0; i < m->mesh_count; i++) count += 3 * m->meshes[i].triangles;
+    struct side *sides = calloc(count + 1, sizeof *sides);
+    size_t n = 0;
+    for (size_t i = 0; sides && i < m->mesh_count; i++)
+        for (size_t t = 0; t < m->meshes[i].triangles; t++)
+            for (int k = 0; k < 3; k++) {
+                const float *a = m->meshes[i].position_m[m->meshes[i].triangle[t][k]], *b = m->meshes[i].position_m[m->meshes[i].triangle[t][(k + 1) % 3]];
+                bool ahead = memcmp(a, b, 3 * sizeof *a) < 0;
+                struct side *s = &sides[n++];
+                memcpy(s->a, ahead ? a : b, sizeof s->a);
+                memcpy(s->b, ahead ? b : a, sizeof s->b);
+                s->way = ahead ? 1 : -1;
+            }
+    qsort(sides, n, sizeof *sides, by_ends);
+    for (size_t i = 0, j; i < n; i = j) {
+        int sum = 0;
+        for (j = i; j < n && by_ends(&sides[i], &sides[j]) == 0; j++) sum += sides[j].way;
+        open += sum != 0;
+    }
+    free(sides);
+    return open;
+}
+
+static struct vec3 point(const float (*p)[3], uint32_t i) { return vec3((double)p[i][0], (double)p[i][1], (double)p[i][2]); }
+
+static void check_surface(const struct model *m, const char *name)
+{
+    size_t corners = 0, inward = 0, thin = 0;
+    double volume = 0;
+    for (size_t i = 0; i < m->mesh_count; i++) {
+        const struct mesh *mesh = &m->meshes[i];
+        const float(*p)[3] = (const float(*)[3])m->rig->meshes[i].position, (*n)[3] = (const float(*)[3])m->rig->meshes[i].normal; /* as bound */
+        for (size_t t = 0; t < mesh->triangles; t++) {
+            const uint32_t *at = mesh->triangle[t];
+            struct vec3 a = point(p, at[0]), b = point(p, at[1]), c = point(p, at[2]), face = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
+            volume += vec3_dot(a, vec3_cross(b, c)) / 6;
+            thin += vec3_norm(face) < 1e-9;
+            for (int k = 0; k < 3; k++) inward += vec3_dot(face, point(n, at[k])) < 0, corners++;
+        }
+    }
+    OK(open_sides(m) == 0, "%s is closed (%zu open sides)", name, open_sides(m));
+    OK(thin == 0, "%s has no degenerate triangle (%zu)", name, thin);
+    OK(inward * 50 < corners && volume > 0, "%s: normals look outward (%zu of %zu do not), so do triangles (%.4f m3)", name, inward, corners, volume);
+}
+
+/* --- poses --- */
+
+static size_t find_animation(const struct rig *rig, const char *name)
+{
+    size_t i = 0;
+    while (i < rig->animation_count && strcmp(rig->animations[i].name, name)) i++;
+    return i;
+}
+
+static void check_loops(const struct rig *rig, const char *name)
+{
+    bool closes = true;
+    for (size_t i = 0; i < rig->channel_count; i++) {
+        const struct rig_channel *c = &rig->channels[i];
+        size_t n = c->path == GLTF_ROTATION ? 4 : 3;
+        closes = closes && !memcmp(c->value, c->value + (c->keys - 1) * n, n * sizeof *c->value);
+    }
+    OK(closes, "%s: every animation ends as it begins", name);
+}
+
+/* Go on for a loop and a half at the animation's own speed, and see how far what touches the ground goes over it. */
+static void check_feet(const struct model *m, const char *name, const char *pace)
+{
+    struct error err = ERROR_NONE;
+    size_t animation = find_animation(m->rig, pace), total = 0, offset = 0;
+    struct gait gait;
+    if (!OK(animation < m->rig->animation_count && gait_create(&gait, m, animation, &err), "%s has a gait: %s", name, pace)) return;
+    for (size_t i = 0; i < m->mesh_count; i++) total += m->meshes[i].vertices;
+    struct { bool down; double at_m[2]; } *contact = calloc(total, sizeof *contact);
+    double worst = 0, lowest = 0, trodden = 0;
+    int frames = 90;
+    for (int f = 0; f < frames && contact; f++, offset = 0) {
+        double part = 1.5 * f / frames, gone_m = gait.walks ? gait.stride_m * part : 0;
+        struct posture posture = { .animation = animation, .time_s = gait.walks ? gait_time(&gait, gone_m, 0) : gait.duration_s * part };
+        struct model posed;
+        bool treads = false;
+        if (!model_pose(&posed, m, &posture, &err)) break;
+        for (size_t i = 0; i < posed.mesh_count; offset += posed.meshes[i++].vertices)
+            for (size_t v = 0; v < posed.meshes[i].vertices; v++) {
+                const float *p = posed.meshes[i].position_m[v];
+                double at[2] = { (double)p[0] + gone_m, (double)p[1] };
+                bool touches = p[2] < 0.005f;
+                if (touches && !contact[offset + v].down) memcpy(contact[offset + v].at_m, at, sizeof at);
+                if (touches) worst = fmax(worst, hypot(at[0] - contact[offset + v].at_m[0], at[1] - contact[offset + v].at_m[1]));
+                contact[offset + v].down = touches;
+                lowest = fmin(lowest, (double)p[2]);
+                treads = treads || touches;
+            }
+        trodden += treads;
+        model_posed_release(&posed);
+    }
+    free(contact);
+    bool runs = !strcmp(pace, "run"), stands = !strcmp(pace, "stand");
+    OK(gait.walks == !stands, "%s, %s: it %s", name, pace, stands ? "stays" : "goes ahead");
+    OK(runs ? trodden > 0.5 * frames && trodden < 0.95 * frames : trodden > 0.9 * frames, "%s, %s: on its feet for %.0f of %d", name, pace, trodden, frames);
+    OK(worst < 0.03 && lowest > -0.02, "%s, %s: feet slide %.1f mm, sink %.1f mm in at most", name, pace, 1000 * worst, -1000 * lowest);
+    gait_release(&gait);
+}
+
+/* --- files --- */
+
+static void check_weights(const char *path, const char *name)
+{
+    struct error err = ERROR_NONE;
+    struct gltf gltf;
+    size_t vertices = 0, wrong = 0;
+    if (!OK(gltf_read(&gltf, path, &err), "%s is read", name)) return;
+    for (size_t i = 0; i < gltf.meshes[0].primitive_count; i++) {
+        const struct gltf_accessor *a = &gltf.accessors[gltf.meshes[0].primitives[i].weights[0]];
+        const struct gltf_view *view = &gltf.views[a->view];
+        for (size_t v = 0; v < a->count; v++, vertices++) {
+            const uint8_t *w = gltf.buffers[view->buffer].data + view->offset + a->offset + v * view->stride;
+            wrong += a->component != GLTF_U8 || !a->normalized || w[0] + w[1] + w[2] + w[3] != 255;
+        }
+    }
+    OK(vertices > 300 && wrong == 0, "%s: weights sum to 1 at %zu vertices", name, vertices);
+    gltf_release(&gltf);
+}
+
+static void check_size(const struct model *m, const struct catalogue_model *listed)
+{
+    struct error err = ERROR_NONE;
+    struct model posed;
+    struct posture standing = { .animation = find_animation(m->rig, "stand") };
+    if (!OK(model_pose(&posed, m, &standing, &err), "%s stands", listed->name)) return;
+    double size[3] = { posed.max_m.x - posed.min_m.x, posed.max_m.y - posed.min_m.y, posed.max_m.z - posed.min_m.z };
+    for (int k = 0; k < 3; k++) NEAR(size[k], listed->size_m[k], 0.02 * listed->size_m[k], "%s: as large as the catalogue says, axis %d", listed->name, k);
+    NEAR(posed.min_m.z, 0, 0.004, "%s stands on the ground", listed->name);
+    for (size_t i = 0; i < sizeof statures / sizeof *statures; i++) {
+        double shoes = 0.013 * statures[i].stature_m, hair = strcmp(listed->name, "man-shirt") ? 0.012 : 0.03;
+        if (!strcmp(statures[i].name, listed->name))
+            NEAR(size[2], statures[i].stature_m + shoes + hair, 0.02 * statures[i].stature_m, "%s: its stature, shoes and hair", listed->name);
+    }
+    model_posed_release(&posed);
+}
+
+static void check_person(const struct catalogue_model *listed, size_t number)
+{
+    for (int detail = 0; detail < DETAIL_COUNT; detail++) {
+        struct error err = ERROR_NONE;
+        struct model *m = NULL;
+        char name[100];
+        snprintf(name, sizeof name, "%s, %s", listed->name, detail_name((enum detail)detail));
+        if (!OK(listed->files[detail] && model_load(&m, listed->files[detail], &listed->options, &err), "%s is loaded %s", name, err.text)) continue;
+        size_t triangles = 0;
+        for (size_t i = 0; i < m->mesh_count; i++) triangles += m->meshes[i].triangles;
+        OK((int)triangles == listed->triangles[detail], "%s: %zu triangles, as listed", name, triangles);
+        check_surface(m, name);
+        check_weights(listed->files[detail], name);
+        check_loops(m->rig, name);
+        if (detail == DETAIL_NEAR) check_size(m, listed);
+        /* Poses take their time: all from the air, every fourth from near as well. */
+        if (detail == DETAIL_FAR || (detail == DETAIL_NEAR && number % 8 == 0))
+            for (size_t i = 0; i < sizeof paces / sizeof *paces; i++) check_feet(m, name, paces[i]);
+        model_destroy(m);
+    }
+}
+
+int main(void)
+{
+    struct error err = ERROR_NONE;
+    const char *top = getenv("top_builddir");
+    char folder[600];
+    snprintf(folder, sizeof folder, "%s/models", top ? top : ".");
+    struct catalogue *catalogue = NULL;
+    if (!OK(catalogue_read(&catalogue, (const char *[]){ folder, NULL }, &err), "the cast is listed %s", err.text)) return tap_done();
+    size_t people = 0;
+    for (size_t i = 0; i < catalogue->count; i++)
+        if (catalogue->models[i].class_ == CLASS_PERSON && catalogue->models[i].files[DETAIL_FAR]) check_person(&catalogue->models[i], people++);
+    OK(people >= 12, "%zu people", people);
+    catalogue_destroy(catalogue);
+    return tap_done();
+}
