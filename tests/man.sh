@@ -7,7 +7,7 @@ help_options() { sed -n 's/^ *\(-.*\)/\1/p' log | sed 's/   *[^-].*//' | grep -o
 # The options that head an entry of the page: ".It Fl o , Fl -output Ar OUT".
 page_options() { sed -n 's/^\.It \(Fl .*\)/\1/p' "$1" | grep -o -e 'Fl -*[A-Za-z][A-Za-z-]*' | sed 's/^Fl /-/' | sort -u; }
 
-for program in staffage staffage-fuse staffage-gen staffage-import staffage-post staffage-povray staffage-stats; do
+for program in staffage staffage-fuse staffage-gen staffage-import staffage-models staffage-post staffage-povray staffage-stats; do
     page=$top_srcdir/man/$program.1
     run "$top_builddir/$program" --help
     help_options >help

@@ -217,6 +217,9 @@ bool model_load(struct model **model, const char *path, const struct model_optio
     apply_rotation(made, rotation);
     measure(made);
     if (!find_scale(&scale, made, import.unit_m, path, options, err)) goto out;
+    made->unit_m = scale;
+    made->stated_unit_m = import.unit_m;
+    made->lowest_m = scale * made->min_m.z;
     if (!stand(made, rotation, scale, path, err)) goto out;
     if (made->rig && !rig_measure_drift(made->rig, err)) at_path(made, err);
     *model = made;
@@ -237,6 +240,8 @@ void model_destroy(struct model *model)
     free(model->materials);
     free(model->images);
     free(model->missing_textures);
+    for (size_t i = 0; i < model->texture_count; i++) free(model->textures[i]);
+    free(model->textures);
     rig_destroy(model->rig);
     free(model->path);
     free(model);

@@ -26,6 +26,11 @@ struct model {
     size_t image_count;
     struct vec3 min_m, max_m; /* bounding box; min_m.z is 0, but for a posed model */
     struct rig *rig;          /* how it moves (gen/model/rig.h); NULL: it does not */
+    double unit_m;            /* metres that a unit of the file became */
+    double stated_unit_m;     /* metres that a unit of the file is, as it says; 0: it does not say */
+    double lowest_m;          /* where its lowest vertex lay above the file's zero; loading stands it on the ground */
+    char **textures;          /* paths of the files that its textures come from */
+    size_t texture_count;
     char **missing_textures;  /* names that the model gives and that were not found */
     size_t missing_texture_count;
 };

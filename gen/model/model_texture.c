@@ -112,15 +112,16 @@ bool texture_make_u8(struct image *image, struct error *err)
     return true;
 }
 
-static bool append_missing(struct model *model, const char *name, struct error *err)
+/* Each text once. */
+static bool append(char ***list, size_t *count, const char *text, struct error *err)
 {
-    for (size_t i = 0; i < model->missing_texture_count; i++)
-        if (!strcmp(model->missing_textures[i], name)) return true;
-    char **grown = realloc(model->missing_textures, (model->missing_texture_count + 1) * sizeof *grown);
+    for (size_t i = 0; i < *count; i++)
+        if (!strcmp((*list)[i], text)) return true;
+    char **grown = realloc(*list, (*count + 1) * sizeof *grown);
     if (!grown) return error_set(err, ERR_MEMORY, "no memory for a model");
-    model->missing_textures = grown;
-    if (!(grown[model->missing_texture_count] = strdup(name))) return error_set(err, ERR_MEMORY, "no memory for a model");
-    model->missing_texture_count++;
+    *list = grown;
+    if (!(grown[*count] = strdup(text))) return error_set(err, ERR_MEMORY, "no memory for a model");
+    ++*count;
     return true;
 }
 
@@ -133,8 +134,8 @@ static bool read_image(struct image *out, struct model *model, const struct impo
         ok = image_decode(out, image->data, image->size, model->path, err) || error_prefix(err, "%s: ", image->name);
     } else {
         char *path = texture_find(model->path, image->name);
-        if (!path) return append_missing(model, image->name, err);
-        ok = image_read(out, path, err);
+        if (!path) return append(&model->missing_textures, &model->missing_texture_count, image->name, err);
+        ok = image_read(out, path, err) && append(&model->textures, &model->texture_count, path, err);
         free(path);
     }
     if (ok && !texture_make_u8(out, err)) {

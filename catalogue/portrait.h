@@ -1,0 +1,35 @@
+/* Pictures of models under the clear sky: rendered as anything is that a scene puts into a photograph. */
+#ifndef STAFFAGE_CATALOGUE_PORTRAIT_H
+#define STAFFAGE_CATALOGUE_PORTRAIT_H
+
+#include "gen/model/catalogue.h"
+#include "lib/error.h"
+#include "lib/image.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* One model from one side. */
+enum side { SIDE_FRONT, SIDE_LEFT, SIDE_REAR, SIDE_ABOVE /* from the front, the left and above */, SIDE_COUNT };
+
+struct sitter {
+    const char *name, *file;     /* borrowed, as is what follows */
+    struct model_options options; /* with unit and axes where the file does not state them; rules are not used */
+    double size_m[3];            /* length, width, height */
+    bool has_color;
+    double color[3];             /* linear */
+};
+
+struct portraits { struct image *pictures; size_t count; }; /* (count) 8 bit sRGB, sitter by sitter, side by side */
+
+/* Render each sitter from each side: write a scene, run `staffage`, which lies beside this program, and read what it made.
+ * In:  width_px   of a picture; its height is 3/4 of it
+ *      folder     for working files; made, and removed when all went well
+ *      quiet      do not show the renderer's progress
+ * Out: portraits  free with portraits_release
+ * Err: ERR_RENDER, ERR_IO, ERR_MEMORY */
+bool portraits_make(struct portraits *portraits, const struct sitter *sitters, size_t n, const enum side *sides, size_t side_count,
+                    int width_px, const char *folder, bool quiet, struct error *err);
+void portraits_release(struct portraits *portraits);
+
+#endif
