@@ -134,6 +134,14 @@ static struct vec3 direction(const struct image *image, double x, double y)
     return vec3(cos(elevation) * cos(turn), cos(elevation) * sin(turn), sin(elevation));
 }
 
+/* To the 11 digits of a half float: a file of such values is a quarter as large, and sooner written. */
+static float rounded(double value)
+{
+    int exponent;
+    double digits = frexp(value, &exponent);
+    return (float)ldexp(round(ldexp(digits, 11)), exponent - 11);
+}
+
 static void paint(struct image *image, const struct panorama_input *in, const struct wall *wall)
 {
     for (int y = 0; y < image->height_px / 2; y++)
@@ -145,7 +153,7 @@ static void paint(struct image *image, const struct panorama_input *in, const st
                     if (n > 1) look(rgb, in, wall, direction(image, x + (i + 0.5) / n, y + (j + 0.5) / n));
                     for (int c = 0; c < 3; c++) sum[c] += rgb[c] / (n * n);
                 }
-            for (int c = 0; c < 3; c++) image_f32(image, x, y)[c] = (float)sum[c];
+            for (int c = 0; c < 3; c++) image_f32(image, x, y)[c] = rounded(sum[c]);
         }
 }
 
