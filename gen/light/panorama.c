@@ -51,13 +51,15 @@ static struct wall raise_wall(const struct panorama_input *in)
     return wall;
 }
 
-/* An angle beside the picture, mirrored at its sides until it is inside. */
+/* An angle beside the picture, as one inside: the rest of the circle is the picture back and forth, an odd number of
+ * times, so that it joins at both sides. */
 static double fold(const struct wall *wall, double aside)
 {
-    double span = wall->left_rad + wall->right_rad, at = remainder(aside, 2 * M_PI) + wall->right_rad;
-    if (span >= 2 * M_PI) return aside;
-    at = fmod(at + 64 * span, 2 * span);
-    return (at < span ? at : 2 * span - at) - wall->right_rad;
+    double span = wall->left_rad + wall->right_rad, rest = 2 * M_PI - span;
+    double at = fmod(aside + wall->right_rad + 4 * M_PI, 2 * M_PI) - wall->right_rad - wall->left_rad;
+    if (at <= 0) return at + wall->left_rad;
+    double times = 2 * floor(rest / span / 2) + 1, turns = at / rest * times, whole = floor(turns), part = turns - whole;
+    return fmod(whole, 2) == 0 ? wall->left_rad - part * span : part * span - wall->right_rad;
 }
 
 /* Where a direction meets the wall, its height kept. */

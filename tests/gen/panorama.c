@@ -50,6 +50,17 @@ static void over_a_plane(const struct light *light)
     near_radiance(&p.mirrored, 90, degrees(atan2(6.3, 14.495)), 0.2, 0.2, 0.2, "below it is what the picture shows below it");
     near_radiance(&p.mirrored, 90 + degrees(atan2(1.6, 14.495)), up, 0.2, 0.2, 0.2, "and beside it what it shows there");
     near_radiance(&p.mirrored, 270, 3, 0.2, 0.2, 0.2, "behind the camera it goes on");
+    /* A picture dark to one side and bright to the other: no neighbours round the circle differ as much. */
+    double step = 0;
+    for (int x = 0; x < WIDTH; x++) fill_px(&picture, x, 0, x + 1, HEIGHT, 0.1 + 0.8 * x / WIDTH, 0.2, 0.2);
+    struct panorama slope;
+    if (OK(panorama_create(&slope, &in, &err), "a picture that brightens to one side")) {
+        int row = slope.mirrored.height_px / 2 - 3;
+        for (int x = 0; x < slope.mirrored.width_px; x++)
+            step = fmax(step, fabs((double)(image_f32(&slope.mirrored, x, row)[0] - image_f32(&slope.mirrored, (x + 1) % slope.mirrored.width_px, row)[0])));
+        OK(step < 0.06, "goes round without a seam (%.3f)", step);
+        panorama_release(&slope);
+    }
     double sky[3], model[3];
     radiance_at(sky, &p.mirrored, 30, 75);
     light_sky_radiance(model, light, vec3(cos(M_PI / 6) * cos(75 * M_PI / 180), sin(M_PI / 6) * cos(75 * M_PI / 180), sin(75 * M_PI / 180)));
