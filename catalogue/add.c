@@ -5,7 +5,8 @@
 #include "catalogue/parts.h"
 #include "catalogue/portrait.h"
 #include "catalogue/sheet.h"
-#include "gen/motion/gait.h"
+#include "gen/model/rig.h"
+#include "gen/motion/repertoire.h"
 #include "lib/file.h"
 #include "lib/image.h"
 
@@ -151,7 +152,7 @@ static void say_model(const struct adding *a)
            m->material_count, m->material_count == 1 ? "" : "s", 100 * s->open_share, 100 * s->inward_share);
     if (m->image_count) printf("  textures %zu, of up to %d px\n", m->image_count, s->largest_texture_px);
     if (!person) say_materials(m);
-    if (m->rig) puts("  motion   its first animation is played");
+    if (m->rig) printf("  motion   %zu animation%s\n", m->rig->animation_count, m->rig->animation_count == 1 ? "" : "s");
     else if (person) puts("  motion   none: as traffic it glides");
     if (fabs(m->lowest_m) > GROUND_OFF_M)
         printf("  ground   its lowest point lies %.2f m %s the file's zero: it is stood on the ground\n", fabs(m->lowest_m), m->lowest_m > 0 ? "above" : "below");
@@ -201,10 +202,10 @@ static bool is_sure(const struct adding *a, struct error *err)
 /* Who walks must be able to. */
 static bool can_move(const struct adding *a, struct error *err)
 {
-    struct gait gait = { 0 };
+    struct repertoire repertoire = { 0 };
     if (!a->model->rig) return true;
-    bool ok = gait_create(&gait, a->model, err);
-    gait_release(&gait);
+    bool ok = repertoire_create(&repertoire, a->model, err);
+    repertoire_release(&repertoire);
     return ok;
 }
 
