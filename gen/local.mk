@@ -4,6 +4,7 @@ gen_libgen_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(TINYGLTF_CFLAGS) $(ASS
   $(ERFA_CFLAGS) $(YAML_CFLAGS) $(JANSSON_CFLAGS) $(READOSM_CFLAGS)
 gen_libgen_a_SOURCES = \
   %D%/detail.c %D%/detail.h \
+  %D%/estimate/daylight_locus.c %D%/estimate/daylight_locus.h \
   %D%/estimate/estimate.c %D%/estimate/estimate.h %D%/estimate/estimate_impl.h \
   %D%/estimate/estimate_gather.c \
   %D%/estimate/estimate_report.c \

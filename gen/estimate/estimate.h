@@ -23,6 +23,7 @@ struct light_estimate {
     enum shade_from from;      /* what told */
     double certainty;          /* of clear or not, 0.5 to 1 */
     struct shade shade;        /* places 0 where no shadow was found */
+    double sky_share[3], sky_share_sigma[3]; /* clear: of the light on level ground in the open, the sky's */
     double turbidity;          /* clear: whose sky is to the sun as was found */
     bool has_check;            /* over a mesh */
     struct sun_check check;

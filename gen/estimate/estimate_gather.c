@@ -29,7 +29,9 @@ bool look_at(struct looked_at *l, const struct stage *stage, const struct estima
     image_release(&image);
     if (!ok || !ground_view_of(&l->view, stage, &l->tones, &l->camera, l->shot->world_from_camera, err)) return false;
     if (s->has_mist) ground_view_clear(&l->tones, &l->view, s->visibility_m, s->haze);
-    return lit_ground_find(&l->lit, NULL, NULL, stage, &l->tones, &l->view, sun, &l->camera, l->shot->world_from_camera, err);
+    if (!lit_ground_find(&l->lit[0], NULL, NULL, stage, &l->tones, &l->view, sun, &l->camera, l->shot->world_from_camera, err)) return false;
+    l->surfaces = lit_surfaces_find(l->lit, SHADE_SURFACES, &l->lit[0], stage, &l->tones, &l->view, sun);
+    return l->surfaces || out_of_memory(err);
 }
 
 void looked_at_release(struct looked_at *l)
@@ -82,6 +84,14 @@ static int place_of(const struct looked_at *l, const int16_t px[2])
     return ((int)l->index * down + px[1] / PLACE_PX) * across + px[0] / PLACE_PX;
 }
 
+/* Which of the commonest surfaces, or -1. */
+static int surface_of(const struct looked_at *l, const float *ln)
+{
+    for (size_t i = 0; i < l->surfaces; i++)
+        if (lit_ground_is(&l->lit[i], ln)) return (int)i;
+    return -1;
+}
+
 bool gather_edges(struct gathered *g, const struct looked_at *l, struct error *err)
 {
     const struct static_mesh *mesh = l->stage->mesh;
@@ -91,9 +101,10 @@ bool gather_edges(struct gathered *g, const struct looked_at *l, struct error *e
     bool ok = true;
     for (size_t i = 0; ok && i < n; i++) {
         const struct shadow_edge *e = &edges[i];
-        struct shade_sample sample = { { e->ln[0], e->ln[1], e->ln[2] }, place_of(l, e->shade_px) };
+        int surface = surface_of(l, e->lit);
+        bool on_lit = surface >= 0;
+        struct shade_sample sample = { { e->ln[0], e->ln[1], e->ln[2] }, place_of(l, e->shade_px), on_lit ? surface : 0 };
         struct shadow_sides sides;
-        bool on_lit = lit_ground_is(&l->lit, e->lit);
         if (!g->by_place && !on_lit) continue;
         if (!grow(g)) {
             ok = out_of_memory(err);

@@ -14,7 +14,7 @@ struct gathered {
     struct shade_sample *samples;
     struct shadow_sides *sides;   /* (n) */
     int8_t *told;                 /* (n) 1: the place casts that shadow, -1: the other way round, 0: neither */
-    bool *on_lit;                 /* (n) the brighter side is the ground's commonest surface in the light */
+    bool *on_lit;                 /* (n) the brighter side is one of the ground's commonest surfaces in the light */
     size_t n, room;
     struct shade_sample *marks;   /* (scene.mark_count) */
     size_t mark_count;
@@ -28,7 +28,8 @@ struct looked_at {
     struct camera camera;         /* at its size */
     struct tones tones;
     struct ground_view view;
-    struct lit_ground lit;
+    struct lit_ground lit[SHADE_SURFACES]; /* (surfaces) the commonest surfaces; the first: what the exposure is fitted to */
+    size_t surfaces;
 };
 
 /* In: sun: unit, or NULL where it is not known */
@@ -37,7 +38,7 @@ bool look_at(struct looked_at *l, const struct stage *stage, const struct estima
 /* Also after a failure. */
 void looked_at_release(struct looked_at *l);
 
-/* Add a photograph's edges: those of the ground's commonest surface; where a mesh casts shadows, those of any, with what it
+/* Add a photograph's edges: those of the ground's commonest surfaces; where a mesh casts shadows, those of any, with what it
  * casts there. */
 bool gather_edges(struct gathered *g, const struct looked_at *l, struct error *err);
 /* Add the pairs that are marked in a photograph.

@@ -12,24 +12,31 @@ static double exposure_of(const struct light_estimate *e, const double radiance[
     return e->lit[c] > 0 && radiance[c] > 0 ? e->lit[c] / radiance[c] : 0;
 }
 
+/* Both triples, of R, G and B. */
+static char *triple_text(const double v[3], const double sigma[3])
+{
+    return string_format("R %.3f +- %.3f G %.3f +- %.3f B %.3f +- %.3f", v[0], sigma[0], v[1], sigma[1], v[2], sigma[2]);
+}
+
 static char *shade_text(const struct light_estimate *e)
 {
     const struct shade *s = &e->shade;
     static const double weight[3] = { 0.2126, 0.7152, 0.0722 };
-    double in_shade = 0, variance = 0;
+    double sky = 0, sigma = 0;
     for (int c = 0; c < 3; c++) {
-        in_shade += weight[c] * s->ratio[c];
-        variance += weight[c] * s->sigma[c];
+        sky += weight[c] * e->sky_share[c];
+        sigma += weight[c] * e->sky_share_sigma[c]; /* the channels' errors go together */
     }
-    /* Sun over sky is (1 - r) / r; the channels' errors go together. */
-    double sun = (1 - in_shade) / in_shade, sun_sigma = variance / (in_shade * in_shade);
     char *from = e->from == SHADE_FROM_MARKS ? string_format("%zu marked pair%s", s->edges, s->edges == 1 ? "" : "s")
                                              : string_format("%zu pixels of shadow edges in %zu places%s", s->edges, s->places,
                                                              e->from == SHADE_FROM_MESH ? ", which the mesh casts" : "");
-    char *text = from ? string_format("light: clear, sure to %.0f %%; sun to sky %.2f +- %.2f on level ground, shade to lit R %.3f +- %.3f "
-                                      "G %.3f +- %.3f B %.3f +- %.3f (from %s); sky of turbidity %.1f\n",
-                                      100 * e->certainty, sun, sun_sigma, s->ratio[0], s->sigma[0], s->ratio[1], s->sigma[1],
-                                      s->ratio[2], s->sigma[2], from, e->turbidity) : NULL;
+    char *shade = triple_text(s->ratio, s->sigma), *share = triple_text(e->sky_share, e->sky_share_sigma);
+    char *text = from && shade && share
+        ? string_format("light: clear, sure to %.0f %%; shade to lit %s (from %s)\n"
+                        "light: in the open the sky gives %s, sun to sky %.2f +- %.2f; turbidity %.1f\n", 100 * e->certainty, shade, from, share,
+                        (1 - sky) / sky, sigma / (sky * sky), e->turbidity) : NULL;
+    free(share);
+    free(shade);
     free(from);
     return text;
 }
@@ -59,8 +66,10 @@ static char *exposure_text(const struct light_estimate *e, const double radiance
         k[c] = exposure_of(e, radiance, c);
         sigma[c] = k[c] * e->lit_sigma[c] / e->lit[c];
     }
-    return string_format("light: exposure R %.3f +- %.3f G %.3f +- %.3f B %.3f +- %.3f, if ground.albedo is right\n", k[0], sigma[0], k[1], sigma[1],
-                         k[2], sigma[2]);
+    char *exposure = triple_text(k, sigma);
+    char *text = exposure ? string_format("light: exposure %s, if ground.albedo is right\n", exposure) : NULL;
+    free(exposure);
+    return text;
 }
 
 char *light_estimate_text(const struct light_estimate *e, const double ground_radiance[3])
@@ -86,7 +95,11 @@ json_t *light_estimate_json(const struct light_estimate *e, const double radianc
         json_object_set_new(json, "places", json_integer((json_int_t)s->places));
         json_object_set_new(json, "share", json_real(s->share));
     }
-    if (e->clear) json_object_set_new(json, "turbidity", json_real(e->turbidity));
+    if (e->clear) {
+        json_object_set_new(json, "sky_share", json_pack("[f,f,f]", e->sky_share[0], e->sky_share[1], e->sky_share[2]));
+        json_object_set_new(json, "sky_share_sigma", json_pack("[f,f,f]", e->sky_share_sigma[0], e->sky_share_sigma[1], e->sky_share_sigma[2]));
+        json_object_set_new(json, "turbidity", json_real(e->turbidity));
+    }
     if (e->clear && e->has_check) {
         const struct sun_check *c = &e->check;
         json_object_set_new(json, "sun_check", json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:i, s:b}",

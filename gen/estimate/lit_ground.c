@@ -12,7 +12,7 @@
 #define BALANCE_MAX 0.4
 #define COLOR_BIN 0.06
 #define BRIGHT_BIN 0.2
-enum { COLOR_BINS = 40, BRIGHT_BINS = 40, CANDIDATES_MIN = 20, APART_PX = 16 };
+enum { COLOR_BINS = 40, BRIGHT_BINS = 40, CANDIDATES_MIN = 20, APART_PX = 16, SURFACES_MAX = 50 };
 
 struct candidate { int16_t x, y; };
 struct candidates { struct candidate *at; size_t n, room; };
@@ -188,4 +188,33 @@ bool lit_ground_find(struct lit_ground *ground, struct vec2 **q_px, size_t *n, c
     if (!ok) return error_set(err, ERR_MEMORY, "no memory for the lit ground of a photograph");
     *ground = g;
     return true;
+}
+
+/* Take out those of a colour. */
+static void drop(struct candidates *c, const struct lit_ground *g, const struct tones *tones)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < c->n; i++)
+        if (!lit_ground_is(g, tones_at(tones, c->at[i].x, c->at[i].y))) c->at[kept++] = c->at[i];
+    c->n = kept;
+}
+
+size_t lit_surfaces_find(struct lit_ground *surfaces, size_t most, const struct lit_ground *first, const struct stage *stage,
+                         const struct tones *tones, const struct ground_view *view, const struct vec3 *sun)
+{
+    struct candidates c = { 0 };
+    size_t n = 1;
+    bool ok = add_ground(&c, stage, tones, view, sun);
+    size_t all = c.n;
+    surfaces[0] = *first;
+    while (ok && n < most) {
+        struct lit_ground g = { 0 };
+        drop(&c, &surfaces[n - 1], tones);
+        if (c.n < all / SURFACES_MAX) break;
+        ok = find_commonest(g.ln, &c, tones) && settle(&g, &c, tones);
+        if (g.found < all / SURFACES_MAX) break;
+        surfaces[n++] = g;
+    }
+    free(c.at);
+    return ok ? n : 0;
 }

@@ -29,6 +29,11 @@ bool lit_ground_find(struct lit_ground *ground, struct vec2 **q_px, size_t *n, c
                      const struct ground_view *view, const struct vec3 *sun, const struct camera *camera,
                      struct pose world_from_camera, struct error *err);
 
+/* The commonest surfaces of all ground in view: 1 of them is the lit ground above, others follow while they cover 2 % of it.
+ * Out: surfaces (most); returns how many, 0 when memory ends */
+size_t lit_surfaces_find(struct lit_ground *surfaces, size_t most, const struct lit_ground *first, const struct stage *stage,
+                         const struct tones *tones, const struct ground_view *view, const struct vec3 *sun);
+
 /* Does a surface of this colour look like it in the light? In: ln (3) */
 bool lit_ground_is(const struct lit_ground *ground, const float *ln);
 

@@ -46,14 +46,15 @@ static bool can_be_shade(const struct shade_sample *s, double bluer)
     return blue > bluer && blue < BLUEST && depth_of(s) > DEEPEST && s->ln[2] < 0 && green > GREEN_MIN * blue && green < GREEN_MAX * blue;
 }
 
-/* How many are in a cell of depth and blueness, and in its neighbours. */
-static void fill(size_t sum[DEPTH_BINS][BLUE_BINS], const struct shade_sample *s, size_t n, double bluer)
+/* How many are in a cell of depth and blueness and in its neighbours, each as much as daylight allows it. */
+static void fill(double sum[DEPTH_BINS][BLUE_BINS], const struct shade_sample *s, size_t n, double bluer, const struct daylight_locus *locus)
 {
-    size_t count[DEPTH_BINS + 2][BLUE_BINS + 2] = { 0 };
+    double count[DEPTH_BINS + 2][BLUE_BINS + 2] = { 0 };
     for (size_t i = 0; i < n; i++) {
         if (!can_be_shade(&s[i], bluer)) continue;
         int a = (int)(-depth_of(&s[i]) / BIN), b = (int)(blue_of(&s[i]) / BIN);
-        if (a >= 0 && a < DEPTH_BINS && b >= 0 && b < BLUE_BINS) count[a + 1][b + 1]++;
+        if (a >= 0 && a < DEPTH_BINS && b >= 0 && b < BLUE_BINS)
+            count[a + 1][b + 1] += daylight_locus_likelihood(locus, -(a + 0.5) * BIN, (b + 0.5) * BIN);
     }
     for (int a = 0; a < DEPTH_BINS; a++)
         for (int b = 0; b < BLUE_BINS; b++) {
@@ -65,16 +66,16 @@ static void fill(size_t sum[DEPTH_BINS][BLUE_BINS], const struct shade_sample *s
 
 /* Between leaves, and in penumbra, sun gets into the shade: such edges lie anywhere between light and shade, but none
  * is deeper than the shade itself. So, of the full cells, that of the deepest. */
-static bool deepest(double *depth, double *blue, const struct shade_sample *s, size_t n, double bluer)
+static bool deepest(double *depth, double *blue, const struct shade_sample *s, size_t n, double bluer, const struct daylight_locus *locus)
 {
-    size_t sum[DEPTH_BINS][BLUE_BINS], most = 0, best = 0;
-    fill(sum, s, n, bluer);
+    double sum[DEPTH_BINS][BLUE_BINS], most = 0, best = 0;
+    fill(sum, s, n, bluer, locus);
     for (int a = 0; a < DEPTH_BINS; a++)
-        for (int b = 0; b < BLUE_BINS; b++) most = sum[a][b] > most ? sum[a][b] : most;
-    for (int a = DEPTH_BINS - 1; a >= 0 && !best; a--)
+        for (int b = 0; b < BLUE_BINS; b++) most = fmax(most, sum[a][b]);
+    for (int a = DEPTH_BINS - 1; a >= 0 && !(best > 0); a--)
         for (int b = 0; b < BLUE_BINS; b++) {
             /* The top of the first full row and those behind it. */
-            for (int deeper = 0; deeper < 3 && a - deeper >= 0 && (double)sum[a][b] > FULL * (double)most; deeper++) {
+            for (int deeper = 0; deeper < 3 && a - deeper >= 0 && sum[a][b] > FULL * most; deeper++) {
                 if (sum[a - deeper][b] <= best) continue;
                 best = sum[a - deeper][b];
                 *depth = -(a - deeper + 0.5) * BIN;
@@ -123,14 +124,26 @@ static void measure(struct shade *shade, const struct shade_sample *s, const boo
     }
 }
 
-bool shade_find(struct shade *shade, struct shade_sample *samples, size_t n, double bluer, struct error *err)
+/* In: samples in the order of their places */
+static void count_surfaces(size_t places[SHADE_SURFACES], const struct shade_sample *s, const bool *member, size_t n)
+{
+    for (int surface = 0; surface < SHADE_SURFACES; surface++)
+        for (size_t i = 0, end; i < n; i = end) {
+            size_t k = 0;
+            for (end = i; end < n && s[end].place == s[i].place; end++) k += member[end] && s[end].surface == surface;
+            places[surface] += k >= PLACE_EDGES_MIN;
+        }
+}
+
+bool shade_find(struct shade *shade, struct shade_sample *samples, size_t n, double bluer, const struct daylight_locus *locus,
+                struct error *err)
 {
     struct shade found = { 0 };
     double *scratch = malloc((2 * n + 2) * sizeof *scratch), depth = 0, blue = 0;
     bool *member = calloc(n + 1, sizeof *member);
     bool ok = scratch && member;
     if (ok) qsort(samples, n, sizeof *samples, by_place);
-    if (ok && deepest(&depth, &blue, samples, n, bluer)) {
+    if (ok && deepest(&depth, &blue, samples, n, bluer, locus)) {
         for (int round = 0; round < ROUNDS; round++) {
             size_t count = take_members(member, samples, n, bluer, depth, blue), k = 0;
             if (!count) break;
@@ -148,6 +161,8 @@ bool shade_find(struct shade *shade, struct shade_sample *samples, size_t n, dou
         for (size_t i = 0; i < n; i++) as_deep += fabs(depth_of(&samples[i]) - depth) < DEPTH_WIDTH;
         found.share = (double)found.edges / (double)n;
         found.purity = (double)found.edges / fmax(1, (double)as_deep);
+        found.likelihood = daylight_locus_likelihood(locus, depth, blue);
+        count_surfaces(found.surface_places, samples, member, n);
     }
     free(member);
     free(scratch);
@@ -162,9 +177,16 @@ bool shade_is(const struct shade *shade, const struct shade_sample *s)
            fabs(blue_of(s) - log(shade->ratio[2] / shade->ratio[0])) < BLUE_WIDTH;
 }
 
+bool shade_agrees(const struct shade *a, const struct shade *b)
+{
+    struct shade_sample other = { 0 };
+    for (int c = 0; c < 3; c++) other.ln[c] = (float)log(b->ratio[c]);
+    return b->places && shade_is(a, &other);
+}
+
 bool shade_of_marks(struct shade *shade, const struct shade_sample *samples, size_t n, struct error *err)
 {
-    struct shade found = { .edges = n, .share = 1, .purity = 1 };
+    struct shade found = { .edges = n, .share = 1, .purity = 1, .likelihood = 1 };
     double *scratch = malloc((2 * n + 2) * sizeof *scratch);
     bool *all = malloc(n * sizeof *all + 1);
     bool ok = scratch && all;

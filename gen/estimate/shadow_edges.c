@@ -3,7 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { NEAR_PX = 5, FAR_PX = 9 };
+enum { SCALES = 2, FAR_PX = 9 };
+static const int side_px[SCALES][2] = { { 5, FAR_PX }, { 3, 5 } };
 /* Less contrast than this is grain and wear. */
 #define CONTRAST_MIN 0.25
 /* A side changes by no more than this share of the edge's contrast, and no more than that. */
@@ -27,9 +28,10 @@ static double unevenness(const float *a, const float *b)
 
 /* The edge through (x, y) across one direction. Returns its contrast, 0 for none. */
 static double across(struct shadow_edge *edge, const struct tones *t, const struct ground_view *view, int x, int y,
-                     double dx, double dy)
+                     const double direction[2], const int side[2])
 {
-    int u[2] = { (int)lround(dx * NEAR_PX), (int)lround(dx * FAR_PX) }, v[2] = { (int)lround(dy * NEAR_PX), (int)lround(dy * FAR_PX) };
+    int u[2] = { (int)lround(direction[0] * side[0]), (int)lround(direction[0] * side[1]) };
+    int v[2] = { (int)lround(direction[1] * side[0]), (int)lround(direction[1] * side[1]) };
     int lit = 1;
     double step = luminance_step(tones_at(t, x + u[1], y + v[1]), tones_at(t, x - u[1], y - v[1]));
     if (step < 0) lit = -1;
@@ -65,9 +67,9 @@ bool shadow_edges_find(struct shadow_edge **out, size_t *count, const struct ton
         for (int x = FAR_PX; x < t->width_px - FAR_PX; x++) {
             struct shadow_edge best = { 0 };
             double contrast = 0;
-            for (int i = 0; i < 4; i++) {
+            for (int i = 0; i < 4 * SCALES && !(i == 4 && contrast > 0); i++) {
                 struct shadow_edge edge;
-                double is = across(&edge, t, view, x, y, direction[i][0], direction[i][1]);
+                double is = across(&edge, t, view, x, y, direction[i % 4], side_px[i / 4]);
                 if (is <= contrast) continue;
                 contrast = is;
                 best = edge;

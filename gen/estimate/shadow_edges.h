@@ -14,8 +14,8 @@ struct shadow_edge {
     int16_t lit_px[2], shade_px[2]; /* working pixels */
 };
 
-/* Every working pixel with an edge through it, seen across the direction of most contrast. The sides are
- * taken 5 to 9 working pixels away from it, beyond penumbra and blur.
+/* Every working pixel with an edge through it, seen across the direction of most contrast. The sides are taken 5 to 9
+ * working pixels away from it, beyond penumbra and blur; where they are not even there, 3 to 5: thin shadows.
  * Out: *edges, the caller's (free)
  * Err: ERR_MEMORY */
 bool shadow_edges_find(struct shadow_edge **edges, size_t *n, const struct tones *tones, const struct ground_view *view,

@@ -165,12 +165,12 @@ static bool fill(struct light *light, const struct scene *scene, struct error *e
 }
 
 /* The light in the open stays as it is; of it, so much is the sky's, and the rest the sun's. */
-static void share_out(struct light *light, const double shade_to_lit[3])
+static void share_out(struct light *light, const double sky_share[3])
 {
     double sky[3];
     for (int c = 0; c < 3; c++) {
-        sky[c] = shade_to_lit[c] * light->irradiance[c] * M_PI;
-        light->sun_color[c] = (1 - shade_to_lit[c]) * light->irradiance[c] / light->sun_direction.z;
+        sky[c] = sky_share[c] * light->irradiance[c] * M_PI;
+        light->sun_color[c] = (1 - sky_share[c]) * light->irradiance[c] / light->sun_direction.z;
     }
     scale_sky(&light->sky, sky);
 }
@@ -187,7 +187,7 @@ bool light_create(struct light *light, const struct scene *scene, struct error *
         made.irradiance[c] += made.sun_color[c] * made.sun_direction.z;
     }
 
-    if (made.has_sun && scene->has_shade) share_out(&made, scene->shade_to_lit);
+    if (made.has_sun && scene->has_sky_share) share_out(&made, scene->sky_share);
 
     double scale = 1 / luminance_of(made.irradiance);
     for (int c = 0; c < 3; c++) {

@@ -168,8 +168,8 @@ struct scene {
     int cie_type;              /* CIE: 1 ... 15 */
     struct scene_map map;      /* MAP */
     double sun_scale;          /* multiplies the sun's irradiance; 1 */
-    bool has_shade;            /* CLEAR: the following says how much of the light in the open is the sky's, not the model */
-    double shade_to_lit[3];
+    bool has_sky_share;        /* CLEAR: the following says how much of the light in the open is the sky's, not the model */
+    double sky_share[3];
     struct scene_mark *marks;  /* AUTO */
     size_t mark_count;
     double fill;               /* shadowless light on entities, as a share of the light in the open */

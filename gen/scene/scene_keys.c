@@ -126,7 +126,7 @@ static const struct schema_key keys[] = {
     { "light.sun.azimuth_deg", TYPE_NUMBER, "deg", .presence = REQUIRED, LIMITS(-360, 360) },
     { "light.sun.elevation_deg", TYPE_NUMBER, "deg", .presence = REQUIRED, ABOVE(0, 90) },
     { "light.sun_scale", TYPE_NUMBER, .preset = "1", LIMITS(0, INFINITY) },
-    { "light.shade_to_lit", TYPE_NUMBERS, COUNT(3), ABOVE(0, 0.99) },
+    { "light.sky_share", TYPE_NUMBERS, COUNT(3), ABOVE(0, 0.99) },
     { "light.shadows", TYPE_ITEMS, .preset = "[]" },
     { "light.shadows[].lit_px", TYPE_NUMBERS, "px", .presence = REQUIRED, COUNT(2), LIMITS(0, PIXELS_MAX) },
     { "light.shadows[].shade_px", TYPE_NUMBERS, "px", .presence = REQUIRED, COUNT(2), LIMITS(0, PIXELS_MAX) },

@@ -117,13 +117,13 @@ static bool read_auto(const struct reading *r, const struct yaml_node *node)
     return !marks || read_marks(r, marks);
 }
 
-static bool read_shade(const struct reading *r, const struct yaml_node *node)
+static bool read_sky_share(const struct reading *r, const struct yaml_node *node)
 {
-    const struct yaml_node *shade = yaml_get(node, "shade_to_lit");
-    if (!shade) return true;
-    r->scene->has_shade = true;
-    schema_numbers(r->scene->shade_to_lit, 3, shade);
-    return refuse_sun_scale(r, node, "and shade_to_lit say the same: remove one");
+    const struct yaml_node *share = yaml_get(node, "sky_share");
+    if (!share) return true;
+    r->scene->has_sky_share = true;
+    schema_numbers(r->scene->sky_share, 3, share);
+    return refuse_sun_scale(r, node, "and sky_share say the same: remove one");
 }
 
 bool scene_read_light(const struct reading *r, const struct yaml_node *node)
@@ -141,7 +141,7 @@ bool scene_read_light(const struct reading *r, const struct yaml_node *node)
 
     static const struct { const char *key; enum sky_kind sky; const char *why; } only[] = {
         { "turbidity", SKY_CLEAR, "has a meaning under a clear sky only: remove it, or use \"sky: clear\"" },
-        { "shade_to_lit", SKY_CLEAR, "has a meaning under a clear sky only: remove it, or use \"sky: clear\"" },
+        { "sky_share", SKY_CLEAR, "has a meaning under a clear sky only: remove it, or use \"sky: clear\"" },
         { "cie_type", SKY_CIE, "means a standard sky: remove it, or use \"sky: cie\"" },
         { "map", SKY_MAP, "means a measured sky: remove it, or use \"sky: map\"" },
         { "shadows", SKY_AUTO, "are marked for \"sky: auto\": remove them, or use it" },
@@ -153,7 +153,7 @@ bool scene_read_light(const struct reading *r, const struct yaml_node *node)
     }
     switch (scene->sky) {
     case SKY_AUTO: return read_auto(r, node);
-    case SKY_CLEAR: return read_sun(r, node, "a clear sky") && read_shade(r, node);
+    case SKY_CLEAR: return read_sun(r, node, "a clear sky") && read_sky_share(r, node);
     case SKY_CIE: return read_cie(r, node);
     case SKY_MAP: return read_map(r, node);
     case SKY_OVERCAST:

@@ -133,7 +133,7 @@ static void on_a_plane(void)
     double sky[3];
     if (OK(light_create(&light, &scene, &err), "the scene has light %s", err.text)) {
         light_sky_irradiance(sky, &light, vec3(0, 0, 1));
-        for (int c = 0; c < 3; c++) NEAR(sky[c] / light.irradiance[c], e.shade.ratio[c], 1e-4, "of which the sky gives as much, %c", "RGB"[c]);
+        for (int c = 0; c < 3; c++) NEAR(sky[c] / light.irradiance[c], e.sky_share[c], 1e-4, "of which the sky gives as much, %c", "RGB"[c]);
         light_release(&light);
     }
 

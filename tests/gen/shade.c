@@ -24,6 +24,7 @@ static void add(struct edges *e, double r, double g, double b, double scatter, s
         double common = scatter * noise();
         for (int c = 0; c < 3; c++) e->s[e->n].ln[c] = (float)(log(ratio[c]) + common + 0.3 * scatter * noise());
         e->s[e->n].place = (int)(e->n / 10);
+        e->s[e->n].surface = 0;
     }
 }
 
@@ -31,7 +32,8 @@ static struct shade found(const struct edges *e)
 {
     struct error err = ERROR_NONE;
     struct shade shade = { 0 };
-    if (!shade_find(&shade, e->s, e->n, 0.25, &err)) OK(false, "%s", err.text);
+    struct daylight_locus locus = daylight_locus(0.8, 1);
+    if (!shade_find(&shade, e->s, e->n, 0.25, &locus, &err)) OK(false, "%s", err.text);
     return shade;
 }
 
