@@ -242,7 +242,6 @@ bool frame_make(struct frame_result *result, const struct frame_context *context
     if (ok) {
         struct rect window = changed_window(&f);
         result->empty = window.x1 <= window.x0 || window.y1 <= window.y0;
-        result->receiver_reduction = pass_settings(s->quality, context->light).receiver_reduction;
         if (!result->empty)
             ok = (view_cover(&result->view, camera, window, err) || stage_fail(s, shot->source, err)) &&
                  frame_expose(&f, err) && frame_write_passes(&f, &result->view, err);

@@ -31,7 +31,6 @@ struct frame_result {
     char name[FRAME_NAME_SIZE]; /* "000123" */
     bool empty;                 /* nothing changes: no passes */
     struct view view;           /* of the object pass */
-    int receiver_reduction;
     bool kept;                  /* it was there already, from the same input */
 };
 

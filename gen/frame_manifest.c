@@ -27,7 +27,7 @@ bool frame_write_manifest(const struct frame *f, const struct frame_result *resu
     struct manifest m = {
         .width_px = f->camera->width_px, .height_px = f->camera->height_px,
         .camera = *f->camera, .world_from_camera = f->shot->world_from_camera,
-        .empty = result->empty, .view = result->view, .receiver_reduction = result->receiver_reduction,
+        .empty = result->empty, .view = result->view,
         .exposure_at_px = f->exposure.at_px, .exposure_fitted = f->exposure.fitted, .exposure_patch_px = f->exposure.patch_px,
         .exposure_samples = (int)f->exposure.samples,
         .t1 = s->t1, .t2 = s->t2, .t3 = s->t3,

@@ -8,14 +8,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+/* Paths of a frame's place, relative to the output folder. */
+struct place_files { char place[64], shades[64]; };
+
 /* The parts of the static mesh that the entities that matter need, and a plane below them.
- * Out: path of the include, relative to the output folder */
-static bool write_place(char path[64], struct plane *below, const struct frame *f, struct error *err)
+ * Out: ground (unlit), around: what can be in the way of its light; the caller's */
+static bool write_place(struct place_files *files, struct shaded_ground *ground, struct static_cut *around, struct plane *below,
+                        const struct frame *f, struct error *err)
 {
-    struct static_cut receivers = { 0 }, around = { 0 }, shades = { 0 }, rest = { 0 };
-    struct vec3 *lights = NULL;
-    size_t light_count = 0;
+    struct static_cut receivers = { 0 }, shades = { 0 }, rest = { 0 };
     struct prism *near = calloc(f->around.n + 1, sizeof *near), *above = calloc(f->around.shade_count + 1, sizeof *above);
+    const struct light *light = f->context->light;
     size_t near_count = 0, above_count = 0, per_entity = f->around.n ? f->around.shade_count / f->around.n : 0;
     bool ok = (near && above) || error_set(err, ERR_MEMORY, "no memory for the place");
     for (size_t i = 0; ok && i < f->around.n; i++) {
@@ -24,26 +27,41 @@ static bool write_place(char path[64], struct plane *below, const struct frame *
         for (size_t k = 0; k < per_entity; k++) above[above_count++] = f->around.shades[i * per_entity + k];
     }
     ok = ok && static_mesh_cut(f->stage->mesh, &receivers, near, near_count, err) &&
-         static_mesh_cut(f->stage->mesh, &around, above, above_count, err) &&
-         pass_lights(&lights, &light_count, f->scene, f->context->light, err) &&
-         shading_part(&shades, &rest, &around, &receivers, lights, light_count, err);
-    snprintf(path, 64, "frames/%s/place.inc", f->name);
-    char *file = string_format("%s/place.inc", f->folder);
-    ok = ok && (file || error_set(err, ERR_MEMORY, "no memory for a path")) &&
-         place_include_write(file, &receivers, &shades, &rest, err);
+         static_mesh_cut(f->stage->mesh, around, above, above_count, err) &&
+         shading_part(&shades, &rest, around, &receivers, &light->sun_direction, light->has_sun, err) &&
+         shaded_ground_of_cut(ground, &receivers, err);
+    snprintf(files->place, sizeof files->place, "frames/%s/place.inc", f->name);
+    snprintf(files->shades, sizeof files->shades, "frames/%s/shades.inc", f->name);
+    char *place = string_format("%s/place.inc", f->folder), *shade = string_format("%s/shades.inc", f->folder);
+    ok = ok && ((place && shade) || error_set(err, ERR_MEMORY, "no memory for a path")) &&
+         place_include_write(place, &receivers, &rest, err) && shades_include_write(shade, &shades, err);
     double lowest = INFINITY;
     for (size_t i = 0; i < f->moment.n; i++)
         if (f->matters[i]) lowest = fmin(lowest, f->moment.entities[i].world_from_entity.translation.z);
     for (size_t i = 0; i < receivers.vertices; i++) lowest = fmin(lowest, (double)receivers.position_m[i][2]);
     *below = (struct plane){ vec3(0, 0, 1), lowest - 0.5 };
     static_cut_release(&receivers);
-    static_cut_release(&around);
     static_cut_release(&shades);
     static_cut_release(&rest);
-    free(lights);
-    free(file);
+    free(place);
+    free(shade);
     free(near);
     free(above);
+    return ok;
+}
+
+/* The sky's light on the ground, past the place and the entities that matter. */
+static bool light_ground(struct shaded_ground *ground, const struct static_cut *around, const struct frame *f,
+                         const struct view *view, struct error *err)
+{
+    struct pass_settings settings = pass_settings(f->scene->quality);
+    struct shaded_ground_detail detail = { f->shot->world_from_camera.translation, 1 / view->fx_px, settings.fine_px };
+    struct sky_sight *sight = NULL;
+    bool ok = sky_sight_create(&sight, f->context->light, settings.sky_directions, around, err);
+    for (size_t i = 0; ok && i < f->moment.n; i++)
+        ok = !f->matters[i] || sky_sight_add(sight, f->context->tracer, &f->moment.entities[i], &f->receivers[i], err);
+    ok = ok && shaded_ground_shade(ground, sight, detail, err);
+    sky_sight_destroy(sight);
     return ok;
 }
 
@@ -54,8 +72,10 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
     struct receiver *receivers = calloc(f->moment.n + 1, sizeof *receivers);
     struct model_include *includes = calloc(f->moment.n + 1, sizeof *includes);
     size_t n = 0;
-    char place[64];
     struct pass_surroundings surroundings;
+    struct place_files files;
+    struct shaded_ground ground = { 0 };
+    struct static_cut around = { 0 };
     bool ok = (entities && receivers && includes) || error_set(err, ERR_MEMORY, "no memory for a frame");
     for (size_t i = 0; ok && i < f->moment.n; i++) {
         if (!f->matters[i]) continue;
@@ -70,10 +90,16 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
     struct passes passes = {
         .scene = f->scene, .sky_map = c->sky_map, .light = c->light, .view = *view,
         .world_from_camera = f->shot->world_from_camera, .entities = entities, .includes = includes, .entity_count = n,
-        .ground = f->scene->ground, .receivers = receivers, .receiver_count = n,
-        .place_include = f->stage->mesh ? place : NULL, .surroundings = &surroundings,
+        .ground = f->scene->ground, .receivers = &ground,
+        .place_include = f->stage->mesh ? files.place : NULL, .shades_include = f->stage->mesh ? files.shades : NULL,
+        .surroundings = &surroundings,
     };
-    ok = ok && frame_write_surroundings(&surroundings, f, err) && (!f->stage->mesh || write_place(place, &passes.ground, f, err)) && passes_write(f->folder, &passes, err);
+    ok = ok && frame_write_surroundings(&surroundings, f, err) &&
+         (f->stage->mesh ? write_place(&files, &ground, &around, &passes.ground, f, err)
+                               : shaded_ground_of_plane(&ground, &f->scene->ground, receivers, n, err)) &&
+         light_ground(&ground, &around, f, view, err) && passes_write(f->folder, &passes, err);
+    shaded_ground_release(&ground);
+    static_cut_release(&around);
     free(entities);
     free(receivers);
     free(includes);

@@ -78,7 +78,7 @@ static bool trace_models(struct generator *g, struct error *err)
 
 struct pass_settings generator_pass_settings(const struct generator *g)
 {
-    return pass_settings(g->scene->quality, &g->light);
+    return pass_settings(g->scene->quality);
 }
 
 /* What a quality means may change from version to version. */
@@ -92,9 +92,9 @@ static uint64_t hash_settings(uint64_t hash, const struct generator *g)
     hash = hash_bytes(hash, &scene->seed, sizeof scene->seed);
     hash = hash_bytes(hash, g->sky_map, strlen(g->sky_map)); /* named after what is in it */
     hash = hash_bytes(hash, g->light.sun_color, sizeof g->light.sun_color);
-    hash = hash_bytes(hash, &settings.sky_lights, sizeof settings.sky_lights);
+    hash = hash_bytes(hash, &settings.sky_directions, sizeof settings.sky_directions);
+    hash = hash_bytes(hash, &settings.fine_px, sizeof settings.fine_px);
     hash = hash_bytes(hash, &settings.radiosity_count, sizeof settings.radiosity_count);
-    hash = hash_bytes(hash, &settings.receiver_reduction, sizeof settings.receiver_reduction);
     hash = hash_bytes(hash, settings.object_antialias, strlen(settings.object_antialias));
     return hash_bytes(hash, settings.receiver_antialias, strlen(settings.receiver_antialias));
 }
@@ -284,7 +284,6 @@ static bool already_there(struct frame_result *result, const char *manifest_path
         result->kept = true;
         result->empty = old.empty;
         result->view = old.view;
-        result->receiver_reduction = old.receiver_reduction;
     }
     manifest_release(&old);
     return same;

@@ -67,6 +67,7 @@ gen_libgen_a_SOURCES = \
   %D%/render/passes.c %D%/render/passes.h \
   %D%/render/place_sdl.c %D%/render/place_sdl.h \
   %D%/render/sdl.c %D%/render/sdl.h \
+  %D%/render/sky_uv.c %D%/render/sky_uv.h \
   %D%/scene/nearest.c %D%/scene/nearest.h \
   %D%/scene/scene.c %D%/scene/scene.h \
   %D%/scene/scene_cast.c \
@@ -90,6 +91,7 @@ gen_libgen_a_SOURCES = \
   %D%/trace/footprint.c %D%/trace/footprint.h \
   %D%/trace/fusion.c %D%/trace/fusion.h \
   %D%/trace/label.c %D%/trace/label.h \
+  %D%/trace/shaded_ground.c %D%/trace/shaded_ground.h \
   %D%/trace/motion.c %D%/trace/motion.h \
   %D%/trace/place.c %D%/trace/place.h \
   %D%/trace/plane_depth.c %D%/trace/plane_depth.h \
@@ -99,8 +101,10 @@ gen_libgen_a_SOURCES = \
   %D%/trace/semantic.c %D%/trace/semantic.h \
   %D%/trace/shape.c %D%/trace/shape.h \
   %D%/trace/share.c %D%/trace/share.h \
+  %D%/trace/sky_sight.c %D%/trace/sky_sight.h \
   %D%/trace/trace.c %D%/trace/trace.h \
   %D%/world/banded.c %D%/world/banded.h \
+  %D%/world/cut_rays.c %D%/world/cut_rays.h \
   %D%/world/entity.c %D%/world/entity.h \
   %D%/world/ground.c %D%/world/ground.h \
   %D%/world/osm.c %D%/world/osm.h \

@@ -114,11 +114,11 @@ static bool generate(const struct options *o, struct error *err)
         *(result->kept ? &kept : &made) += 1;
         entries[done++] = (struct makefile_frame){ .name = result->name, .empty = result->empty };
         if (result->empty) continue;
-        struct view whole = result->view, reduced = view_reduced(&whole, result->receiver_reduction);
+        int width = result->view.width_px, height = result->view.height_px;
         entries[done - 1] = (struct makefile_frame){
             .name = result->name,
-            .width_px = { whole.width_px, reduced.width_px, reduced.width_px },
-            .height_px = { whole.height_px, reduced.height_px, reduced.height_px },
+            .width_px = { width, width, width },
+            .height_px = { height, height, height },
             .options = { settings.object_antialias, settings.receiver_antialias, settings.receiver_antialias },
         };
     }

@@ -195,9 +195,7 @@ static bool walk_manifest(struct walk *walk, struct manifest *m)
         !walk_bool(walk, "empty", &m->empty))
         return false;
     /* An empty frame has no passes, so no view and no exposure. */
-    if (!m->empty && (!walk_view(walk, &m->view) || !walk_int(walk, "receiver_reduction", &m->receiver_reduction, 1, 16) ||
-                      !walk_exposure(walk, m)))
-        return false;
+    if (!m->empty && (!walk_view(walk, &m->view) || !walk_exposure(walk, m))) return false;
     return walk_transfer(walk, m) && walk_place(walk, m) && walk_weather(walk, m) && walk_hand(walk, m) &&
            walk_entities(walk, m) && walk_leave(walk);
 }

@@ -27,9 +27,7 @@ struct manifest {
     struct camera camera;
     struct pose world_from_camera;
     bool empty;                 /* nothing changes in this frame: no passes were written */
-    struct view view;           /* of the object pass, absent in an empty frame; the plane and shadow
-                                 * passes are rendered in view_reduced(&view, receiver_reduction) */
-    int receiver_reduction;     /* 1 to 16 */
+    struct view view;           /* of the passes; absent in an empty frame */
     double exposure[3];         /* linear photograph value per unit of radiance */
     struct vec2 exposure_at_px; /* where in the picture it was found: there it is right, whatever the lens takes away */
     bool exposure_fitted;       /* to the picture, else given */

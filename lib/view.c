@@ -158,17 +158,3 @@ bool view_from_photograph(const struct view *view, const struct camera *camera, 
     *v_px = (struct vec2){ view->fx_px * ray.x / ray.z + view->cx_px, view->fy_px * ray.y / ray.z + view->cy_px };
     return true;
 }
-
-struct view view_reduced(const struct view *view, int factor)
-{
-    struct view reduced = *view;
-    if (factor == 1) return reduced;
-    reduced.width_px = (view->width_px + factor - 1) / factor;
-    reduced.height_px = (view->height_px + factor - 1) / factor;
-    reduced.fx_px /= factor;
-    reduced.fy_px /= factor;
-    reduced.cx_px /= factor;
-    reduced.cy_px /= factor;
-    reduced.aligned = false;
-    return reduced;
-}

@@ -22,10 +22,6 @@ struct view {
  * Err: ERR_INPUT when the window spans more than 150 deg, or the lens is not invertible in it */
 bool view_cover(struct view *view, const struct camera *camera, struct rect window_px, struct error *err);
 
-/* The same view with every side a factor smaller (>= 1), rounded up: what is smooth need not be
- * rendered at the photograph's own density. A factor of 1 changes nothing. */
-struct view view_reduced(const struct view *view, int factor);
-
 /* Photograph position -> view position (both continuous pixels). For aligned views a shift.
  * Err: ERR_NOT_INVERTIBLE as camera_unproject; ERR_BEHIND_CAMERA when outside the view's half space */
 bool view_from_photograph(const struct view *view, const struct camera *camera, struct vec2 *v_px,

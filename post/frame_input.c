@@ -81,18 +81,17 @@ static bool read_photograph(struct frame_input *f, struct error *err)
 
 static bool read_passes(struct frame_input *f, struct error *err)
 {
-    const struct view whole = f->manifest.view, reduced = view_reduced(&whole, f->manifest.receiver_reduction);
-    const struct view *const views[PASS_COUNT] = { &whole, &reduced, &reduced };
+    const struct view *view = &f->manifest.view;
     struct image passes[PASS_COUNT] = { 0 };
     bool ok = true;
     for (int i = 0; i < PASS_COUNT && ok; i++) {
         char *path = path_in(f->folder, pass_file[i], err);
-        ok = path && input_pass(&passes[i], path, views[i]->width_px, views[i]->height_px, err);
+        ok = path && input_pass(&passes[i], path, view->width_px, view->height_px, err);
         free(path);
     }
     /* Plane and shadow by the same weights, so that their ratio is 1 where they are equal. */
-    ok = ok && resample_view(&f->layers[OBJECT], &passes[OBJECT], 1, &whole, &f->manifest.camera, err) &&
-         resample_view(&f->layers[PLANE], &passes[PLANE], 2, &reduced, &f->manifest.camera, err);
+    ok = ok && resample_view(&f->layers[OBJECT], &passes[OBJECT], 1, view, &f->manifest.camera, err) &&
+         resample_view(&f->layers[PLANE], &passes[PLANE], 2, view, &f->manifest.camera, err);
     for (int i = 0; i < PASS_COUNT; i++) image_release(&passes[i]);
     return ok;
 }

@@ -73,7 +73,7 @@ nodist_EXTRA_tests_gen_ribbon_test_SOURCES = dummy.cxx
 tests_gen_ribbon_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/place_sdl.test
-tests_gen_place_sdl_test_SOURCES = %D%/gen/place_sdl.c %D%/gen/place.h %D%/gen/solid.h %D%/tap.h
+tests_gen_place_sdl_test_SOURCES = %D%/gen/place_sdl.c %D%/gen/shade.h %D%/gen/place.h %D%/gen/solid.h %D%/tap.h
 nodist_EXTRA_tests_gen_place_sdl_test_SOURCES = dummy.cxx
 tests_gen_place_sdl_test_LDADD = $(GEN_LIBS)
 
@@ -183,7 +183,7 @@ nodist_EXTRA_tests_lib_manifest_test_SOURCES = dummy.cxx
 tests_lib_manifest_test_LDADD = $(LIB_LIBS)
 
 check_PROGRAMS += tests/gen/passes.test
-tests_gen_passes_test_SOURCES = %D%/gen/passes.c %D%/gen/povray.h %D%/tap.h
+tests_gen_passes_test_SOURCES = %D%/gen/passes.c %D%/gen/shade.h %D%/gen/povray.h %D%/tap.h
 nodist_EXTRA_tests_gen_passes_test_SOURCES = dummy.cxx
 tests_gen_passes_test_LDADD = $(GEN_LIBS)
 check_PROGRAMS += tests/gen/casting.test
@@ -285,6 +285,11 @@ check_PROGRAMS += tests/gen/path.test
 tests_gen_path_test_SOURCES = %D%/gen/path.c %D%/tap.h
 nodist_EXTRA_tests_gen_path_test_SOURCES = dummy.cxx
 tests_gen_path_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/shaded_ground.test
+tests_gen_shaded_ground_test_SOURCES = %D%/gen/shaded_ground.c %D%/gen/solid.h %D%/tap.h
+nodist_EXTRA_tests_gen_shaded_ground_test_SOURCES = dummy.cxx
+tests_gen_shaded_ground_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/shading.test
 tests_gen_shading_test_SOURCES = %D%/gen/shading.c %D%/tap.h

@@ -24,7 +24,7 @@ struct light {
     double irradiance[3];       /* on a level surface in the open, sun and sky, / pi */
 };
 
-/* A direction that stands for a share of the sky: a parallel light in the shadow pass. */
+/* A direction that stands for a share of the sky: what the ground sees of it (gen/trace/sky_sight.h). */
 struct sky_light {
     struct vec3 direction;      /* unit, towards the light, above the horizon */
     double color[3];            /* normal irradiance / pi */

@@ -1,33 +1,23 @@
 #include "gen/render/passes.h"
 
-#include "gen/light/sky_image.h"
 #include "gen/render/camera_sdl.h"
 #include "gen/render/sdl.h"
+#include "gen/render/sky_uv.h"
 #include "lib/file.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-struct pass_settings pass_settings(enum quality quality, const struct light *light)
+struct pass_settings pass_settings(enum quality quality)
 {
-    /* Where most of the light is the sun's it makes the shadow, with edges, and the sky fills it: points of the
-     * sky do. Where the sky makes most of it points would show as steps, and areas of the sky are dear; what they
-     * make is smooth, and needs few pixels unless the sun shows as well. */
-    bool sun = light->has_sun;
-    double level[3] = { light->sun_color[0] * light->sun_direction.z, light->sun_color[1] * light->sun_direction.z,
-                        light->sun_color[2] * light->sun_direction.z };
-    bool soft = !sun || luminance_of(level) < 0.5;
     /* +R1 looks at the corners of a pixel only, and blurs by 0.5 px: too much for outlines, not for shadows. */
     const char *outlines = "+A0.2 +AM2 +R2 -J", *edges = "+A0.03 +AM2 +R1 -J", *fine = "+A0.03 +AM2 +R2 -J", *none = "-A";
     switch (quality) {
-    case QUALITY_DRAFT:
-        return (struct pass_settings){ 10, false, 30, 0.9, sun ? 1 : 2, none, none };
-    case QUALITY_HIGH:
-        return (struct pass_settings){ 48, soft, 200, 0.4, 1, fine, sun ? fine : none };
+    case QUALITY_DRAFT: return (struct pass_settings){ 48, 4, 30, 0.9, none, none };
+    case QUALITY_HIGH: return (struct pass_settings){ 512, 1, 200, 0.4, fine, fine };
     case QUALITY_STANDARD:
-    default:
-        return (struct pass_settings){ soft ? 24 : 16, soft, 40, 0.8, sun ? 1 : 2, outlines, sun ? edges : none };
+    default: return (struct pass_settings){ 128, 2, 40, 0.8, outlines, edges };
     }
 }
 
@@ -44,38 +34,7 @@ bool sky_map_write(char path[SKY_MAP_SIZE], const char *out_folder, const struct
     return ok;
 }
 
-bool pass_lights(struct vec3 **towards, size_t *n, const struct scene *scene, const struct light *light, struct error *err)
-{
-    struct pass_settings settings = pass_settings(scene->quality, light);
-    size_t count = settings.sky_lights * (settings.soft_sky_lights ? 8 : 1);
-    struct sky_light *sky = calloc(count, sizeof *sky);
-    struct vec3 *directions = calloc(count + 1, sizeof *directions);
-    bool ok = (sky && directions) || error_set(err, ERR_MEMORY, "no memory for the sky's lights");
-    if (ok) {
-        light_sample_sky(sky, count, light);
-        for (size_t i = 0; i < count; i++) directions[i] = sky[i].direction;
-        if (light->has_sun) directions[count++] = light->sun_direction;
-        *towards = directions;
-        *n = count;
-    } else
-        free(directions);
-    free(sky);
-    return ok;
-}
-
-/* How the sky lights a pass: by radiosity; by lights, with or without something in their way. */
-enum lights { LIGHTS_RADIOSITY, LIGHTS_OPEN, LIGHTS_SHADED };
-
-/* What lights give a plane, as one light above it. */
-static struct sky_light light_of_plane(const struct sky_light *lights, size_t n, struct vec3 normal)
-{
-    struct sky_light sum = { .direction = normal };
-    for (size_t i = 0; i < n; i++)
-        for (int c = 0; c < 3; c++) sum.color[c] += lights[i].color[c] * fmax(0, vec3_dot(lights[i].direction, normal));
-    return sum;
-}
-
-static void write_light(struct sdl *sdl, const struct passes *p, const struct pass_settings *settings, enum lights lights)
+static void write_light(struct sdl *sdl, const struct passes *p, bool object)
 {
     const struct light *light = p->light;
     if (light->has_sun) {
@@ -84,32 +43,10 @@ static void write_light(struct sdl *sdl, const struct passes *p, const struct pa
         sdl_declare_number(sdl, "Sun_Tangent", tan(SUN_RADIUS_RAD));
         sdl_include(sdl, "sun.inc");
     }
-    const struct pass_surroundings *around = lights == LIGHTS_RADIOSITY ? p->surroundings : NULL;
+    const struct pass_surroundings *around = object ? p->surroundings : NULL;
     sdl_declare_string(sdl, "Sky_Map", around && around->sky_map[0] ? around->sky_map : p->sky_map);
     if (around && around->sky_map[0]) sdl_declare_string(sdl, "Mirrored_Sky_Map", around->mirrored_sky_map);
-    if (lights == LIGHTS_RADIOSITY || p->scene->ground_reflection > 0) sdl_include(sdl, "sky.inc");
-    if (lights == LIGHTS_RADIOSITY) return;
-    size_t n = settings->sky_lights;
-    struct sky_light *sky = calloc(n, sizeof *sky);
-    if (!sky) {
-        error_set(&sdl->err, ERR_MEMORY, "no memory for the sky's lights");
-        return;
-    }
-    light_sample_sky(sky, n, light);
-    if (lights == LIGHTS_OPEN) { /* with nothing to shade the plane, one light gives what all of them give */
-        sky[0] = light_of_plane(sky, n, p->ground.normal);
-        n = 1;
-    }
-    /* Each light's share of the hemisphere as a cone: 2 pi (1 - cos r) = 2 pi / n. */
-    double radius = acos(1 - 1.0 / (double)n);
-    sdl_declare_number(sdl, "Sky_Light_Soft", settings->soft_sky_lights && n > 1 ? tan(radius) : 0);
-    sdl_include(sdl, "sky_lights.inc");
-    for (size_t i = 0; i < n; i++) {
-        const struct sky_light *s = &sky[i];
-        sdl_call(sdl, "Sky_Light",
-                 (double[]){ s->direction.x, s->direction.y, s->direction.z, s->color[0], s->color[1], s->color[2] }, 6);
-    }
-    free(sky);
+    if (object || p->scene->ground_reflection > 0) sdl_include(sdl, "sky.inc");
 }
 
 static void write_entities(struct sdl *sdl, const struct passes *p, bool shapes_only)
@@ -132,50 +69,80 @@ static void write_entities(struct sdl *sdl, const struct passes *p, bool shapes_
     sdl_end(sdl);
 }
 
-static void write_receivers(struct sdl *sdl, const struct passes *p)
+static void write_vectors(struct sdl *sdl, const char *name, const struct vec3 *vector, size_t n)
 {
-    sdl_declare(sdl, "Receivers");
-    sdl_begin(sdl, "union");
-    for (size_t i = 0; i < p->receiver_count; i++) {
-        const struct receiver *r = &p->receivers[i];
-        sdl_begin(sdl, "mesh2");
-        sdl_begin(sdl, "vertex_vectors");
-        sdl_number(sdl, (double)r->corners);
-        for (size_t k = 0; k < r->corners; k++) {
-            sdl_comma(sdl);
-            sdl_vector(sdl, r->corner_m[k]);
-        }
-        sdl_end(sdl);
-        sdl_begin(sdl, "face_indices");
-        sdl_number(sdl, (double)r->corners - 2);
-        for (size_t k = 2; k < r->corners; k++) {
-            sdl_comma(sdl);
-            sdl_vector(sdl, vec3(0, (double)k - 1, (double)k));
-        }
-        sdl_end(sdl);
-        sdl_end(sdl);
+    sdl_begin(sdl, name);
+    sdl_number(sdl, (double)n);
+    for (size_t i = 0; i < n; i++) {
+        sdl_comma(sdl);
+        sdl_vector(sdl, vector[i]);
+        if (i % 8 == 7) sdl_newline(sdl);
     }
     sdl_end(sdl);
 }
 
-/* What receives in the plane and shadow passes. */
-static void write_ground(struct sdl *sdl, const struct passes *p, bool receivers)
+/* The receivers in both passes are one mesh, and the sky's light on it is one function of its uv. */
+static void write_receivers(struct sdl *sdl, const struct passes *p, bool entities)
+{
+    const struct shaded_ground *g = p->receivers;
+    struct sky_scale scale = sky_scale(g, p->light);
+    sdl_declare_color(sdl, "Sky_Most", scale.most);
+    sdl_declare_color(sdl, "Sky_Tint", scale.tint);
+    sdl_declare(sdl, "Receivers");
+    if (!g->triangles) { /* a mesh must have a face: this one is nowhere */
+        sdl_begin(sdl, "sphere");
+        sdl_vector(sdl, vec3(0, 0, -1e6));
+        sdl_comma(sdl);
+        sdl_number(sdl, 1e-3);
+        sdl_end(sdl);
+        return;
+    }
+    sdl_begin(sdl, "mesh2");
+    write_vectors(sdl, "vertex_vectors", g->position_m, g->vertices);
+    if (p->place_include) write_vectors(sdl, "normal_vectors", g->normal, g->vertices);
+    sdl_begin(sdl, "uv_vectors");
+    sdl_number(sdl, (double)g->vertices);
+    for (size_t i = 0; i < g->vertices; i++) {
+        struct vec2 uv = sky_uv(&scale, entities ? g->sky[i].with : g->sky[i].without);
+        sdl_comma(sdl);
+        sdl_vector2(sdl, uv.x, uv.y);
+        if (i % 8 == 7) sdl_newline(sdl);
+    }
+    sdl_end(sdl);
+    sdl_begin(sdl, "face_indices");
+    sdl_number(sdl, (double)g->triangles);
+    for (size_t i = 0; i < g->triangles; i++) {
+        const uint32_t *t = g->triangle[i];
+        sdl_comma(sdl);
+        sdl_vector(sdl, vec3(t[0], t[1], t[2]));
+        if (i % 8 == 7) sdl_newline(sdl);
+    }
+    sdl_end(sdl);
+    sdl_end(sdl);
+}
+
+static void write_ground(struct sdl *sdl, const struct passes *p, bool object)
 {
     const struct scene *scene = p->scene;
-    const struct pass_surroundings *around = receivers ? NULL : p->surroundings;
+    const struct pass_surroundings *around = object ? p->surroundings : NULL;
     sdl_declare_color(sdl, "Ground_Albedo", around ? around->ground_albedo : scene->ground_albedo);
     sdl_declare_number(sdl, "Ground_Reflection", scene->ground_reflection);
     sdl_include(sdl, "ground.inc");
     sdl_declare_number(sdl, "Has_Place", p->place_include != NULL);
+    if (p->shades_include) sdl_include(sdl, p->shades_include);
+}
+
+/* What bounces onto the entities in the object pass. */
+static void write_surroundings(struct sdl *sdl, const struct passes *p)
+{
+    const struct pass_surroundings *around = p->surroundings;
+    double sky[3];
     if (p->place_include) sdl_include(sdl, p->place_include);
-    else if (receivers) write_receivers(sdl, p);
-    if (receivers) return;
     sdl_declare_vector(sdl, "Ground_Normal", p->ground.normal);
     sdl_declare_number(sdl, "Ground_Offset", p->ground.offset_m);
-    double sky[3];
     light_sky_irradiance(sky, p->light, p->ground.normal);
     sdl_declare_color(sdl, "Ground_Sky", sky);
-    sdl_declare_number(sdl, "Fill", scene->fill);
+    sdl_declare_number(sdl, "Fill", p->scene->fill);
     sdl_declare_color(sdl, "Open_Light", p->light->irradiance);
     sdl_declare_number(sdl, "Has_Orthophoto", around != NULL);
     if (!around) return;
@@ -189,7 +156,8 @@ static bool write_pass(const char *frame_folder, const char *name, const struct 
                        bool receivers, struct error *err)
 {
     const struct scene *scene = p->scene;
-    struct pass_settings settings = pass_settings(scene->quality, p->light);
+    struct pass_settings settings = pass_settings(scene->quality);
+    bool mirrors = scene->ground_reflection > 0;
     struct sdl sdl;
     sdl_init(&sdl);
     sdl_header(&sdl, "a pass of a frame: POV-Ray runs in the output folder, templates on its library path");
@@ -197,13 +165,16 @@ static bool write_pass(const char *frame_folder, const char *name, const struct 
     sdl_declare_number(&sdl, "Radiosity_Count", settings.radiosity_count);
     sdl_declare_number(&sdl, "Radiosity_Error", settings.radiosity_error);
     sdl_include(&sdl, "settings.inc");
-    struct view view = view_reduced(&p->view, receivers ? settings.receiver_reduction : 1);
-    camera_write(&sdl, &view, p->world_from_camera);
-    /* Where the place shades itself, the plane pass has to know it as well. */
-    bool shaded = entities || p->place_include;
-    write_light(&sdl, p, &settings, !receivers ? LIGHTS_RADIOSITY : shaded ? LIGHTS_SHADED : LIGHTS_OPEN);
-    write_ground(&sdl, p, receivers);
-    if (entities) write_entities(&sdl, p, receivers && scene->ground_reflection <= 0);
+    camera_write(&sdl, &p->view, p->world_from_camera);
+    write_light(&sdl, p, !receivers);
+    write_ground(&sdl, p, !receivers);
+    if (receivers) write_receivers(&sdl, p, entities);
+    else write_surroundings(&sdl, p);
+    /* The sky's shade is known: entities shade from the sun, and are mirrored. */
+    if (entities) {
+        if (receivers) sdl_declare_number(&sdl, "Entities_Matter", p->light->has_sun || mirrors);
+        if (!receivers || p->light->has_sun || mirrors) write_entities(&sdl, p, receivers && !mirrors);
+    }
     char *include = string_format("pass_%s.inc", name), *path = string_format("%s/%s.pov", frame_folder, name);
     bool ok = include && path;
     if (ok) {

@@ -5,7 +5,7 @@
 #include "gen/world/entity.h"
 #include "gen/light/light.h"
 #include "gen/render/model_sdl.h"
-#include "gen/world/receiver.h"
+#include "gen/trace/shaded_ground.h"
 #include "gen/scene/scene.h"
 #include "lib/view.h"
 
@@ -14,20 +14,15 @@
 
 /* What rendering at a quality costs and gives. */
 struct pass_settings {
-    size_t sky_lights;         /* in the plane and shadow passes */
-    bool soft_sky_lights;      /* each an area of the sky rather than a point of it */
+    size_t sky_directions;     /* of which the ground's light is made */
+    double fine_px;            /* where its shade changes, it is known at points so far apart */
     int radiosity_count;       /* in the object pass */
     double radiosity_error;
-    int receiver_reduction;    /* of the plane and shadow passes against the object pass */
     /* POV-Ray options. The plane and shadow passes share theirs: along the receivers' edges their ratio
      * is 1 only where both are sampled alike. */
     const char *object_antialias, *receiver_antialias;
 };
-struct pass_settings pass_settings(enum quality quality, const struct light *light);
-
-/* Where the light of the plane and shadow passes comes from: sun and sky, areas of it by many directions.
- * Out: *towards (*n) unit, the caller's */
-bool pass_lights(struct vec3 **towards, size_t *n, const struct scene *scene, const struct light *light, struct error *err);
+struct pass_settings pass_settings(enum quality quality);
 
 /* Write the light's sky map under a name made from its content, unless it is there.
  * Out: path, relative to the output folder */
@@ -54,10 +49,10 @@ struct passes {
     const struct model_include *includes; /* (entity_count) */
     size_t entity_count;
     struct plane ground;            /* what receives, on a plane; else a plane below all that is in the place's include */
-    const struct receiver *receivers; /* on a plane */
-    size_t receiver_count;
+    const struct shaded_ground *receivers; /* lit */
+    /* Of place_include_write and shades_include_write, relative to the output folder; NULL: the ground is a plane. */
+    const char *place_include, *shades_include;
     const struct pass_surroundings *surroundings; /* of the object pass; NULL: bare ground of the scene's albedo under the sky */
-    const char *place_include;      /* of place_include_write, relative to the output folder; NULL: the ground is a plane */
 };
 
 /* Write object.pov, plane.pov and shadow.pov into frame_folder. */

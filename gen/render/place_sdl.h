@@ -7,10 +7,12 @@
 
 #include <stdbool.h>
 
-/* Declares Receivers (what is round the entities, smooth normals), Shades (what of the place shades them) and
- * Rest (what shades the entities at most).
- * Err: ERR_IO, ERR_MEMORY */
-bool place_include_write(const char *path, const struct static_cut *receivers, const struct static_cut *shades,
-                         const struct static_cut *rest, struct error *err);
+/* Declares Receivers (what is round the entities, smooth normals) and Rest (what can shade the entities at most).
+ * Err, here and below: ERR_IO, ERR_MEMORY */
+bool place_include_write(const char *path, const struct static_cut *receivers, const struct static_cut *rest,
+                         struct error *err);
+
+/* Declares Shades: what of the place shades the receivers. */
+bool shades_include_write(const char *path, const struct static_cut *shades, struct error *err);
 
 #endif

@@ -26,14 +26,11 @@ void probes_release(struct probes *probes)
     *probes = (struct probes){ 0 };
 }
 
-bool cast_init(struct cast *cast, const struct shape *shape, RTCDevice device, const struct camera *camera,
+bool cast_init(struct cast *cast, const struct tracer *tracer, const struct camera *camera,
                struct pose world_from_camera, const struct entity *entity, struct error *err)
 {
-    *cast = (struct cast){ .shape = shape };
-    if (!cast->shape) {
-        if (!shape_create(&cast->own, device, entity->model, err)) return false;
-        cast->shape = cast->own;
-    }
+    *cast = (struct cast){ 0 };
+    if (!tracer_shape(&cast->shape, &cast->own, tracer, entity->model, err)) return false;
     cast->entity_from_camera = pose_compose(pose_inverse(entity->world_from_entity), world_from_camera);
     struct vec3 min_m, max_m;
     if (!shape_bounds(cast->shape, &min_m, &max_m)) return true;

@@ -30,9 +30,8 @@ struct cast {
     struct rect outside_px;
 };
 
-/* In:  shape  borrowed, or NULL: one is made
- * Err: ERR_MEMORY. cast_release may be called after a failure, too. */
-bool cast_init(struct cast *cast, const struct shape *shape, RTCDevice device, const struct camera *camera,
+/* Err: ERR_MEMORY. cast_release may be called after a failure, too. */
+bool cast_init(struct cast *cast, const struct tracer *tracer, const struct camera *camera,
                struct pose world_from_camera, const struct entity *entity, struct error *err);
 void cast_release(struct cast *cast);
 

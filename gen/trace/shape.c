@@ -7,8 +7,9 @@
 #include <string.h>
 
 #define BATCH 64 /* rays that go to Embree together */
+#define NEAR_M 1e-3f /* POV-Ray's shadow rays begin as far from a surface */
 
-/* What the filter of a mesh with a MASK material is given. */
+/* What the filters of a mesh that is not wholly solid are given. */
 struct masked_mesh {
     const struct mesh *mesh;
     const struct material *material;
@@ -23,22 +24,41 @@ struct shape {
     bool empty;
 };
 
-/* Hits come in N at a time, each field N long: normal (3), u, v, triangle, mesh. */
-static void pass_holes(const struct RTCFilterFunctionNArguments *args)
+/* What the surface stops where a ray hits it. Hits come in N at a time, each field N long: normal (3), u, v,
+ * triangle, mesh. */
+static double alpha_at(const struct RTCFilterFunctionNArguments *args, unsigned i)
 {
     const struct masked_mesh *masked = args->geometryUserPtr;
+    if (!masked->mesh->uv) return material_alpha(masked->material, 0, 0);
     const float *u = (const float *)(const void *)args->hit + 3 * args->N, *v = u + args->N;
     const unsigned *triangle = (const unsigned *)(const void *)args->hit + 5 * args->N;
-    for (unsigned i = 0; i < args->N; i++) {
-        if (args->valid[i] == 0) continue;
-        const uint32_t *corner = masked->mesh->triangle[triangle[i]];
-        const float *a = masked->mesh->uv[corner[0]], *b = masked->mesh->uv[corner[1]],
-                    *c = masked->mesh->uv[corner[2]];
-        double kb = (double)u[i], kc = (double)v[i], ka = 1 - kb - kc;
-        if (material_alpha(masked->material, ka * (double)a[0] + kb * (double)b[0] + kc * (double)c[0],
-                           ka * (double)a[1] + kb * (double)b[1] + kc * (double)c[1]) == 0)
-            args->valid[i] = 0;
-    }
+    const uint32_t *corner = masked->mesh->triangle[triangle[i]];
+    const float *a = masked->mesh->uv[corner[0]], *b = masked->mesh->uv[corner[1]], *c = masked->mesh->uv[corner[2]];
+    double kb = (double)u[i], kc = (double)v[i], ka = 1 - kb - kc;
+    return material_alpha(masked->material, ka * (double)a[0] + kb * (double)b[0] + kc * (double)c[0],
+                          ka * (double)a[1] + kb * (double)b[1] + kc * (double)c[1]);
+}
+
+static void pass_holes(const struct RTCFilterFunctionNArguments *args)
+{
+    for (unsigned i = 0; i < args->N; i++)
+        if (args->valid[i] != 0 && alpha_at(args, i) == 0) args->valid[i] = 0;
+}
+
+/* A ray of light, and what is left of it. */
+struct light_ray {
+    struct RTCIntersectContext embree; /* first: Embree hands it to the filter */
+    double share;
+};
+
+/* Surfaces that let light through do not end a ray, but dim it. One ray at a time. */
+static void dim(const struct RTCFilterFunctionNArguments *args)
+{
+    const struct masked_mesh *masked = args->geometryUserPtr;
+    struct light_ray *light = (struct light_ray *)(void *)args->context;
+    double transmission = masked->material->transmission;
+    light->share *= transmission > 0 ? transmission : 1 - alpha_at(args, 0);
+    if (light->share > 0) args->valid[0] = 0;
 }
 
 static bool attach(struct shape *shape, RTCDevice device, size_t index, struct error *err)
@@ -60,10 +80,11 @@ static bool attach(struct shape *shape, RTCDevice device, size_t index, struct e
     }
     memcpy(vertices, mesh->position_m, mesh->vertices * sizeof *mesh->position_m);
     memcpy(triangles, mesh->triangle, mesh->triangles * sizeof *mesh->triangle);
-    if (masked && mesh->uv) {
+    if ((masked && mesh->uv) || material->alpha_mode == ALPHA_BLEND || material->transmission > 0) {
         shape->masked[index] = (struct masked_mesh){ mesh, material };
         rtcSetGeometryUserData(geometry, &shape->masked[index]);
-        rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
+        rtcSetGeometryOccludedFilterFunction(geometry, dim);
+        if (masked && mesh->uv) rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
     }
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(shape->scene, geometry);
@@ -163,4 +184,19 @@ void shape_hits(const struct shape *shape, double *range_m, struct vec3 origin_m
 {
     for (size_t at = 0; at < n; at += BATCH)
         hit_batch(shape, range_m + at, origin_m, directions + at, n - at < BATCH ? n - at : BATCH);
+}
+
+void shape_shade(const struct shape *shape, float *share, struct vec3 origin_m, const struct vec3 *directions, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (!(share[i] > 0)) continue;
+        struct vec3 d = directions[i];
+        struct RTCRay ray = { .org_x = (float)origin_m.x, .org_y = (float)origin_m.y, .org_z = (float)origin_m.z,
+                              .dir_x = (float)d.x, .dir_y = (float)d.y, .dir_z = (float)d.z, .tnear = NEAR_M,
+                              .tfar = FLT_MAX, .mask = UINT32_MAX };
+        struct light_ray light = { .share = 1 };
+        rtcInitIntersectContext(&light.embree);
+        rtcOccluded1(shape->scene, &light.embree, &ray);
+        share[i] *= ray.tfar < 0 ? 0 : (float)light.share;
+    }
 }

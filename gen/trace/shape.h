@@ -27,4 +27,9 @@ bool shape_bounds(const struct shape *shape, struct vec3 *min_m, struct vec3 *ma
 void shape_hits(const struct shape *shape, double *range_m, struct vec3 origin_m, const struct vec3 *directions,
                 size_t n);
 
+/* Take from light what the model stops of it: all, but for holes and what is transparent.
+ * In/out: share (n) times what passes along each ray; a ray whose share is 0 costs nothing
+ * In:     origin_m, directions (n) unit, in model coordinates; what lies nearer than 1 mm does not count */
+void shape_shade(const struct shape *shape, float *share, struct vec3 origin_m, const struct vec3 *directions, size_t n);
+
 #endif

@@ -48,11 +48,17 @@ void tracer_destroy(struct tracer *tracer)
     free(tracer);
 }
 
-static const struct shape *tracer_shape(const struct tracer *tracer, const struct model *model)
+bool tracer_shape(const struct shape **shape, struct shape **own, const struct tracer *tracer, const struct model *model,
+                  struct error *err)
 {
-    for (size_t i = 0; i < tracer->n; i++)
-        if (shape_model(tracer->shapes[i]) == model) return tracer->shapes[i];
-    return NULL;
+    struct shape *made = NULL;
+    const struct shape *found = NULL;
+    for (size_t i = 0; i < tracer->n && !found; i++)
+        if (shape_model(tracer->shapes[i]) == model) found = tracer->shapes[i];
+    if (!found && !shape_create(&made, tracer->device, model, err)) return false;
+    *shape = found ? found : made;
+    *own = made;
+    return true;
 }
 
 /* Things in front are counted as: entities, then screens, then the place. */
@@ -89,8 +95,7 @@ static bool frame_init(struct frame *frame, const struct tracer *tracer, const s
     if (in->ground) frame->ground = sight_plane(in->ground->normal, in->ground->offset_m, in->world_from_camera);
     for (; frame->cast_count < entities; frame->cast_count++) {
         const struct entity *entity = &in->entities[frame->cast_count];
-        if (!cast_init(&frame->casts[frame->cast_count], tracer_shape(tracer, entity->model), tracer->device, in->camera,
-                       in->world_from_camera, entity, err))
+        if (!cast_init(&frame->casts[frame->cast_count], tracer, in->camera, in->world_from_camera, entity, err))
             return false;
     }
     for (; frame->screen_count < occluders; frame->screen_count++)

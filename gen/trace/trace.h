@@ -5,6 +5,7 @@
 
 #include "gen/world/entity.h"
 #include "gen/world/static_mesh.h"
+#include "gen/trace/shape.h"
 #include "lib/camera.h"
 #include "lib/image.h"
 #include "lib/view.h"
@@ -21,6 +22,11 @@ struct tracer;
 /* The models are borrowed and must outlive the tracer. Err: ERR_MEMORY */
 bool tracer_create(struct tracer **tracer, const struct model *const *models, size_t n, struct error *err);
 void tracer_destroy(struct tracer *tracer);
+/* The search tree over a model; one that is not the tracer's (posed for a frame) gets its own.
+ * Out: *own: NULL, or what the caller destroys
+ * Err: ERR_MEMORY */
+bool tracer_shape(const struct shape **shape, struct shape **own, const struct tracer *tracer, const struct model *model,
+                  struct error *err);
 
 /* A static thing that stands before part of the picture: a polygon in the photograph (even-odd
  * rule), upright at a ground point. It stands in the vertical plane through its foot that faces

@@ -41,7 +41,7 @@ bool receiver_create(struct receiver *receiver, const struct entity *entity, con
     size_t n = 0;
     entity_corners(corners, entity);
     /* Where the sun shines, the sky's share of the light is small, and so is what is taken of it. */
-    double reach = (light->has_sun && !shaded ? 1.2 : 2.5) * (entity->model->max_m.z - entity->model->min_m.z);
+    double reach = (light->has_sun && !shaded ? 1.6 : 3.2) * (entity->model->max_m.z - entity->model->min_m.z);
     for (int i = 0; i < 8; i++) {
         for (int k = 0; k < ROUND; k++) {
             double angle = 2 * M_PI * k / ROUND;
@@ -60,7 +60,7 @@ bool receiver_create(struct receiver *receiver, const struct entity *entity, con
     if (!kept) return error_set(err, ERR_MEMORY, "no memory for a receiver");
     for (size_t i = 0; i < corners_of_hull; i++)
         kept[i] = vec3(hull[i].x, hull[i].y, plane_height(ground, hull[i].x, hull[i].y));
-    *receiver = (struct receiver){ kept, corners_of_hull };
+    *receiver = (struct receiver){ kept, corners_of_hull, reach / 2 };
     return true;
 }
 
@@ -75,4 +75,15 @@ bool receiver_contains(const struct receiver *receiver, struct vec3 p)
     for (size_t i = 0; i < receiver->corners; i++)
         if (turn(receiver->corner_m[i], receiver->corner_m[(i + 1) % receiver->corners], p) < 0) return false;
     return true;
+}
+
+double receiver_share(const struct receiver *receiver, struct vec3 p)
+{
+    double inside = receiver->fade_m;
+    for (size_t i = 0; i < receiver->corners && inside > 0; i++) {
+        struct vec3 a = receiver->corner_m[i], b = receiver->corner_m[(i + 1) % receiver->corners];
+        inside = fmin(inside, turn(a, b, p) / fmax(hypot(b.x - a.x, b.y - a.y), 1e-9));
+    }
+    double share = fmax(0, inside / receiver->fade_m);
+    return share * share * (3 - 2 * share);
 }

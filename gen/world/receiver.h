@@ -16,10 +16,11 @@
 struct receiver {
     struct vec3 *corner_m; /* (corners) world; owned */
     size_t corners;
+    double fade_m;         /* towards its edge the shade fades over so much */
 };
 
 /* The ground around an entity as far as it takes away more than about a hundredth of the light
- * (2.5 times its height where only the sky lights it), together with its shadow in the sun.
+ * (3.2 times its height where only the sky lights it), together with its shadow in the sun.
  * In:  shaded: something keeps the sun from part of that ground
  * Err: ERR_MEMORY */
 bool receiver_create(struct receiver *receiver, const struct entity *entity, const struct plane *ground,
@@ -27,5 +28,7 @@ bool receiver_create(struct receiver *receiver, const struct entity *entity, con
 void receiver_release(struct receiver *receiver);
 /* Is a ground point within it, seen from above? */
 bool receiver_contains(const struct receiver *receiver, struct vec3 p_m);
+/* How much of the shade counts at a ground point: 0 at the edge and beyond, 1 from fade_m inside, smooth between. */
+double receiver_share(const struct receiver *receiver, struct vec3 p_m);
 
 #endif

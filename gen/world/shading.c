@@ -1,47 +1,16 @@
 #include "gen/world/shading.h"
 
-#include <embree3/rtcore.h>
+#include "gen/world/cut_rays.h"
 
-#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* POV-Ray's shadow rays begin as far from a surface. */
-#define NEAR_M 1e-3f
-
-static RTCScene rays_to(RTCDevice device, const struct static_cut *cut)
-{
-    RTCScene scene = rtcNewScene(device);
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    /* Copied: Embree reads 16 bytes at a time, and may read beyond the last vertex of a shared buffer. */
-    void *vertex = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof *cut->position_m,
-                                           cut->vertices);
-    void *index = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof *cut->triangle,
-                                          cut->triangles);
-    if (vertex && index) {
-        memcpy(vertex, cut->position_m, cut->vertices * sizeof *cut->position_m);
-        memcpy(index, cut->triangle, cut->triangles * sizeof *cut->triangle);
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene, geometry);
-        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-        rtcCommitScene(scene);
-    }
-    rtcReleaseGeometry(geometry);
-    return scene;
-}
-
 /* Does a shadow fall from p on something? */
-static bool casts(RTCScene receivers, const float p[3], const struct vec3 *towards, size_t n)
+static bool casts(const struct cut_rays *receivers, const float p[3], const struct vec3 *towards, size_t n)
 {
-    for (size_t i = 0; i < n; i++) {
-        struct RTCRay ray = { .org_x = p[0], .org_y = p[1], .org_z = p[2], .dir_x = (float)-towards[i].x,
-                              .dir_y = (float)-towards[i].y, .dir_z = (float)-towards[i].z, .tnear = NEAR_M,
-                              .tfar = FLT_MAX, .mask = UINT32_MAX };
-        struct RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcOccluded1(receivers, &context, &ray);
-        if (ray.tfar < 0) return true;
-    }
+    struct vec3 from = vec3((double)p[0], (double)p[1], (double)p[2]);
+    for (size_t i = 0; i < n; i++)
+        if (cut_rays_blocked(receivers, from, vec3_scale(towards[i], -1))) return true;
     return false;
 }
 
@@ -93,12 +62,12 @@ static bool pick(struct static_cut *out, const struct static_cut *cut, const boo
 bool shading_part(struct static_cut *shading, struct static_cut *rest, const struct static_cut *cut,
                   const struct static_cut *receivers, const struct vec3 *towards, size_t n, struct error *err)
 {
-    RTCDevice device = rtcNewDevice("threads=1");
-    RTCScene scene = device && receivers->triangles ? rays_to(device, receivers) : NULL;
+    struct cut_rays *rays = NULL;
+    if (!cut_rays_create(&rays, receivers, err)) return false;
     bool *casting = calloc(cut->vertices + 1, sizeof *casting), *near = calloc(cut->vertices + 1, sizeof *near);
     struct static_cut part = { 0 };
-    bool ok = device && casting && near && rtcGetDeviceError(device) == RTC_ERROR_NONE;
-    for (size_t i = 0; ok && scene && i < cut->vertices; i++) casting[i] = casts(scene, cut->position_m[i], towards, n);
+    bool ok = casting && near;
+    for (size_t i = 0; ok && i < cut->vertices; i++) casting[i] = casts(rays, cut->position_m[i], towards, n);
     for (size_t i = 0; ok && i < cut->triangles; i++)
         for (int k = 0; is_large(cut, cut->triangle[i]) && k < 3; k++) near[cut->triangle[i][k]] = true;
     if (ok) spread(near, casting, cut);
@@ -107,7 +76,6 @@ bool shading_part(struct static_cut *shading, struct static_cut *rest, const str
     else static_cut_release(&part);
     free(near);
     free(casting);
-    if (scene) rtcReleaseScene(scene);
-    if (device) rtcReleaseDevice(device);
+    cut_rays_destroy(rays);
     return ok || error_set(err, ERR_MEMORY, "no memory for what shades the place");
 }

@@ -320,3 +320,25 @@ void static_cut_release(struct static_cut *cut)
     free(cut->triangle);
     *cut = (struct static_cut){ 0 };
 }
+
+bool static_cut_normals(struct vec3 **out, const struct static_cut *cut, struct error *err)
+{
+    struct vec3 *normal = calloc(cut->vertices + 1, sizeof *normal);
+    if (!normal) return error_set(err, ERR_MEMORY, "no memory for the place");
+    for (size_t i = 0; i < cut->triangles; i++) {
+        const uint32_t *t = cut->triangle[i];
+        struct vec3 p[3];
+        for (int k = 0; k < 3; k++) {
+            const float *corner = cut->position_m[t[k]];
+            p[k] = vec3((double)corner[0], (double)corner[1], (double)corner[2]);
+        }
+        struct vec3 n = vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));
+        for (int k = 0; k < 3; k++) normal[t[k]] = vec3_add(normal[t[k]], n);
+    }
+    for (size_t i = 0; i < cut->vertices; i++) {
+        double norm = vec3_norm(normal[i]);
+        normal[i] = norm > 0 ? vec3_scale(normal[i], 1 / norm) : vec3(0, 0, 1);
+    }
+    *out = normal;
+    return true;
+}

@@ -4,6 +4,7 @@
 #include "gen/trace/trace.h"
 #include "lib/file.h"
 #include "lib/image.h"
+#include "tests/gen/shade.h"
 #include "tests/gen/povray.h"
 #include "tests/tap.h"
 
@@ -48,9 +49,8 @@ static bool render(struct image pass[3], const char *out, const struct passes *p
     for (int i = 0; ok && i < 3; i++) {
         char *path = string_format("%s/%s.exr", folder, names[i]);
         /* The object pass by one ray a pixel, as labels are traced; the others as they are. */
-        struct pass_settings settings = pass_settings(p->scene->quality, p->light);
-        struct view view = view_reduced(&p->view, i == 0 ? 1 : settings.receiver_reduction);
-        ok = povray(out, names[i], view.width_px, view.height_px, i == 0 ? "-A -J" : settings.receiver_antialias) && image_read(&pass[i], path, &err);
+        struct pass_settings settings = pass_settings(p->scene->quality);
+        ok = povray(out, names[i], p->view.width_px, p->view.height_px, i == 0 ? "-A -J" : settings.receiver_antialias) && image_read(&pass[i], path, &err);
         free(path);
     }
     if (!ok) printf("# %s %s; %s/povray.log\n", err.file, err.text, out);
@@ -101,6 +101,7 @@ int main(void)
         const char *name = round ? "overcast" : "clear";
         struct light light;
         struct receiver receiver;
+        struct shaded_ground ground;
         struct image pass[3] = { { 0 } };
         const struct model_include include = model_include(0, &entity);
         scene.sky = round ? SKY_OVERCAST : SKY_CLEAR;
@@ -110,8 +111,10 @@ int main(void)
             return tap_done();
         struct passes p = { .scene = &scene, .sky_map = sky_map, .light = &light, .world_from_camera = world_from_camera,
                             .entities = &entity, .includes = &include, .entity_count = 1, .ground = scene.ground,
-                            .receivers = &receiver, .receiver_count = 1 };
-        OK(view_cover(&p.view, &camera, (struct rect){ 0, 0, 200, 150 }, &err), "%s: a view", name);
+                            .receivers = &ground };
+        OK(view_cover(&p.view, &camera, (struct rect){ 0, 0, 200, 150 }, &err) &&
+           shaded_ground_of_plane(&ground, &scene.ground, &receiver, 1, &err) && shade_ground(&ground, &p, &receiver, NULL, &err),
+           "%s: a view and its ground", name);
         if (!OK(render(pass, out, &p), "%s: POV-Ray renders all three passes", name)) return tap_done();
 
         /* The ground's radiance, everywhere in the plane pass. */
@@ -175,12 +178,14 @@ int main(void)
             tracer_destroy(tracer);
         }
         for (int i = 0; i < 3; i++) image_release(&pass[i]);
+        shaded_ground_release(&ground);
         receiver_release(&receiver);
         light_release(&light);
     }
     /* On a slope, far from what stands there, the passes agree as well. */
     struct light light;
     struct receiver receiver;
+    struct shaded_ground ground = { 0 };
     struct image pass[3] = { { 0 } };
     size_t open = 0, wrong = 0;
     const struct model_include include = model_include(0, &entity);
@@ -192,8 +197,10 @@ int main(void)
            receiver_create(&receiver, &entity, &scene.ground, &light, false, &err), "a slope: light and receivers")) {
         struct passes p = { .scene = &scene, .sky_map = sky_map, .light = &light, .world_from_camera = world_from_camera,
                             .entities = &entity, .includes = &include, .entity_count = 1, .ground = scene.ground,
-                            .receivers = &receiver, .receiver_count = 1 };
-        OK(view_cover(&p.view, &camera, (struct rect){ 0, 0, 200, 150 }, &err), "a slope: a view");
+                            .receivers = &ground };
+        OK(view_cover(&p.view, &camera, (struct rect){ 0, 0, 200, 150 }, &err) &&
+           shaded_ground_of_plane(&ground, &scene.ground, &receiver, 1, &err) && shade_ground(&ground, &p, &receiver, NULL, &err),
+           "a slope: a view and its ground");
         if (OK(render(pass, out, &p), "a slope: POV-Ray renders all three passes"))
             for (int y = 0; y < pass[1].height_px; y++)
                 for (int x = 0; x < pass[1].width_px; x++) {
@@ -205,6 +212,8 @@ int main(void)
                 }
         OK(open > 50 && wrong == 0, "a slope: ground in the open is not shaded (%zu px), none is brighter (%zu px)", open, wrong);
         for (int i = 0; i < 3; i++) image_release(&pass[i]);
+        shaded_ground_release(&ground);
+        shaded_ground_release(&ground);
         receiver_release(&receiver);
         light_release(&light);
     }

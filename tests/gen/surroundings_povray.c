@@ -31,12 +31,11 @@ static bool render(struct image *pass, const struct light *light, const struct e
     char sky_map[SKY_MAP_SIZE], *folder = string_format("%s/frames", out), *path = string_format("%s/object.exr", folder);
     char *fine = string_format("%s/fine.png", folder), *coarse = string_format("%s/coarse.png", folder);
     const struct model_include include = model_include(0, entity);
-    struct receiver receiver = { 0 };
+    const struct shaded_ground nothing = { 0 };
     struct pass_surroundings around = { .orthophoto = "frames/fine.png", .orthophoto_coarse = "frames/coarse.png" };
     struct passes p = { .scene = &scene, .sky_map = sky_map, .light = light, .world_from_camera = looking(eye, middle), .entities = entity,
-                        .includes = &include, .entity_count = 1, .ground = scene.ground, .receivers = &receiver, .receiver_count = 1 };
+                        .includes = &include, .entity_count = 1, .ground = scene.ground, .receivers = &nothing };
     bool ok = folder_make(folder, &err) && sky_map_write(sky_map, out, light, &err) &&
-              receiver_create(&receiver, entity, &scene.ground, light, false, &err) &&
               view_cover(&p.view, &camera, (struct rect){ 0, 0, WIDTH, HEIGHT }, &err) && model_include_write(&include, NULL, out, entity, &err);
     if (ok && picture) {
         struct orthophoto ground;
@@ -52,7 +51,6 @@ static bool render(struct image *pass, const struct light *light, const struct e
     }
     ok = ok && passes_write(folder, &p, &err) && povray(out, "object", WIDTH, HEIGHT, "-A -J") && image_read(pass, path, &err);
     if (!ok) printf("# %s %s; %s/povray.log\n", err.file, err.text, out);
-    receiver_release(&receiver);
     free(folder);
     free(path);
     free(fine);

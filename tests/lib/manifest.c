@@ -24,7 +24,6 @@ static struct manifest whole_manifest(void)
         .camera = { CAMERA_FULL_OPENCV, 1000, 750, { 1.0 / 3, 2.0 / 3, M_PI, -1e-300, 0.1, 1e22, -0.0, 5e-324, 1, 2, 3, 4 } },
         .world_from_camera = { mat3_from_quat((struct quat){ 0.3, -0.5, 0.7, 0.2 }), { 1 / 7.0, -2e6 / 3, 0.1 + 0.2 } },
         .view = { 210, 120, 1 / 9.0, 1.1, -1e5 / 3, 7, mat3_from_quat((struct quat){ 1, 0.1, 0.2, 0 }), { -3, 5, 60, 70 }, false },
-        .receiver_reduction = 2,
         .exposure = { 0.1, 0.2, 1.0 / 3 },
         .exposure_at_px = { 1e3 / 7, -0.1 },
         .exposure_fitted = true,
@@ -77,7 +76,7 @@ static bool same(const struct manifest *a, const struct manifest *b)
            same_pose(a->world_from_camera, b->world_from_camera) && a->empty == b->empty &&
            a->view.width_px == b->view.width_px && a->view.height_px == b->view.height_px &&
            a->view.fx_px == b->view.fx_px && a->view.fy_px == b->view.fy_px && a->view.cx_px == b->view.cx_px &&
-           a->view.cy_px == b->view.cy_px && a->receiver_reduction == b->receiver_reduction &&
+           a->view.cy_px == b->view.cy_px &&
            !memcmp(&a->view.view_from_camera, &b->view.view_from_camera, sizeof(struct mat3)) &&
            same_rect(a->view.window_px, b->view.window_px) && a->view.aligned == b->view.aligned &&
            !memcmp(a->exposure, b->exposure, sizeof a->exposure) && a->exposure_fitted == b->exposure_fitted &&

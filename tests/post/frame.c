@@ -126,7 +126,6 @@ static struct manifest manifest_of(const char *frame)
         .world_from_camera = pose_identity(),
         .view = { .width_px = 32, .height_px = 32, .fx_px = 50, .fy_px = 50, .cx_px = 16, .cy_px = 16,
                   .view_from_camera = mat3_identity(), .window_px = window, .aligned = true },
-        .receiver_reduction = 1,
         .exposure = { 2, 2, 2 },
         .transfer = "layers", .t1 = 30, .t2 = 200, .t3 = 96, .has_shares = true,
         .entities = entities, .entity_count = 1,

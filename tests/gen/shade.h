@@ -1,0 +1,27 @@
+/* The sky's light on the ground of passes, as frames have it. */
+#ifndef STAFFAGE_TESTS_GEN_SHADE_H
+#define STAFFAGE_TESTS_GEN_SHADE_H
+
+#include "gen/render/passes.h"
+#include "gen/trace/shaded_ground.h"
+
+/* In/out: ground: what passes->receivers is to be, unlit
+ * In:     receivers of passes' entities; place: as sky_sight_create's */
+static bool shade_ground(struct shaded_ground *ground, const struct passes *passes, const struct receiver *receivers,
+                         const struct static_cut *place, struct error *err)
+{
+    struct pass_settings settings = pass_settings(passes->scene->quality);
+    struct shaded_ground_detail detail = { passes->world_from_camera.translation, 1 / passes->view.fx_px, settings.fine_px };
+    struct sky_sight *sight = NULL;
+    struct tracer *tracer = NULL;
+    bool ok = tracer_create(&tracer, NULL, 0, err) && /* each model gets a tree of its own */
+              sky_sight_create(&sight, passes->light, settings.sky_directions, place, err);
+    for (size_t i = 0; ok && i < passes->entity_count; i++)
+        ok = sky_sight_add(sight, tracer, &passes->entities[i], &receivers[i], err);
+    ok = ok && shaded_ground_shade(ground, sight, detail, err);
+    sky_sight_destroy(sight);
+    tracer_destroy(tracer);
+    return ok;
+}
+
+#endif
