@@ -1,5 +1,6 @@
 #include "compare.h"
 
+#include "compare_hand.h"
 #include "compare_picture.h"
 #include "write_pov.h"
 
@@ -266,13 +267,15 @@ bool compare(struct comparison *result, const struct comparison_files *files, co
               read_named(&in.truth, err, string_format("%s/truth-%zu.jpg", files->folder, n)) &&
               read_named(&in.photograph_light, err, string_format("%s/photograph-%zu.exr", files->folder, n)) &&
               read_named(&in.truth_light, err, string_format("%s/truth-%zu.exr", files->folder, n)) &&
+              (!files->plain || read_named(&in.plain, err, string_format("%s/plain-%zu.png", files->folder, n))) &&
               read_named(&in.result, err, string_format("%s/rgb/%06zu.png", files->out, n));
     in.owner = all.owner; /* borrowed */
-    ok = ok && compare_picture(&to, &in, err);
+    ok = ok && compare_picture(&to, &in, err) && compare_hand(&to, &in, err);
     for (size_t i = 1; ok && i <= proving_entity_count(c); i++) ok = compare_entity(&to, &o, files, c, camera, &all, i, err);
     if (ok) *result = to;
     image_release(&in.photograph);
     image_release(&in.truth);
+    image_release(&in.plain);
     image_release(&in.result);
     image_release(&in.photograph_light);
     image_release(&in.truth_light);

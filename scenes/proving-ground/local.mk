@@ -4,6 +4,7 @@ scenes_proving_ground_proving_ground_CPPFLAGS = $(AM_CPPFLAGS) $(JANSSON_CFLAGS)
 scenes_proving_ground_proving_ground_SOURCES = \
   %D%/cases.c %D%/cases.h \
   %D%/compare.c %D%/compare.h \
+  %D%/compare_hand.c %D%/compare_hand.h \
   %D%/compare_picture.c %D%/compare_picture.h \
   %D%/develop.c %D%/develop.h \
   %D%/main.c \
@@ -14,7 +15,7 @@ scenes_proving_ground_proving_ground_SOURCES = \
   %D%/write_pov.c %D%/write_pov.h \
   %D%/write_scene.c %D%/write_scene.h
 nodist_EXTRA_scenes_proving_ground_proving_ground_SOURCES = dummy.cxx
-scenes_proving_ground_proving_ground_LDADD = $(LIB_LIBS)
+scenes_proving_ground_proving_ground_LDADD = $(POST_LIBS)
 EXTRA_DIST += %D%/light_proving.inc %D%/prove %D%/settings_proving.inc %D%/street.inc %D%/street_materials.inc \
   %D%/street_matter.inc
 .PHONY: proving

@@ -175,7 +175,8 @@ static bool compare_shot(char **a, struct error *err)
     const struct proving_case *c;
     if (!find_case(&c, a[0], err)) return false;
     struct camera camera = camera_of(c);
-    struct comparison_files files = { .folder = a[2], .out = a[3], .shot = strtoul(a[1], NULL, 10) };
+    struct comparison_files files = { .folder = a[2], .out = a[3], .shot = strtoul(a[1], NULL, 10),
+                                      .plain = strcmp(a[4], "layers") == 0 || strcmp(a[4], "auto") == 0 };
     struct comparison result;
     if (!compare(&result, &files, c, &camera, err)) return false;
     comparison_print(stdout, c->name, files.shot, a[4], &result);

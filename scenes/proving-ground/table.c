@@ -1,5 +1,6 @@
 #include "compare.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +16,8 @@ static const struct figure figures[] = {
     FIGURE(amodal_depth_m, "%.4f", true, false), FIGURE(box_px, "%.0f", true, false), FIGURE(amodal_box_px, "%.0f", true, false),
     FIGURE(visible_share, "%.4f", true, false), FIGURE(semantic_share, "%.4f", true, true), FIGURE(position_m, "%.4f", true, false),
     FIGURE(turn_deg, "%.3f", true, false), FIGURE(size_m, "%.5f", true, false), FIGURE(corner_px, "%.3f", true, false),
+    FIGURE(edges, "%.0f", false, true), FIGURE(edge_width, "%.3f", false, true), FIGURE(grain, "%.3f", false, true),
+    FIGURE(grain_worst, "%.3f", false, true),
 };
 enum { FIGURES = sizeof figures / sizeof *figures };
 
@@ -61,8 +64,9 @@ static void print_table(FILE *f, const struct line *lines, size_t n, bool labels
         if (!labels) fprintf(f, " %s |", lines[k].method);
         for (size_t i = 0; i < FIGURES; i++) {
             if (figures[i].label != labels) continue;
+            double v = *value(&lines[k].figures, i);
             fputs(" ", f);
-            fprintf(f, figures[i].format, *value(&lines[k].figures, i));
+            if (!isnan(v)) fprintf(f, figures[i].format, v);
             fputs(" |", f);
         }
     }

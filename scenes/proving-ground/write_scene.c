@@ -120,7 +120,9 @@ bool write_scene(const char *path, const struct proving_case *c, const char *var
     fprintf(f, "light: %s\n", !strcmp(variant, "auto") ? "auto" : c->light);
     bool ok = (!stand_in || write_grey(path, err)) && put_photographs(f, c, camera, stand_in, err);
     if (!stand_in) {
-        fprintf(f, "transfer: {method: %s}\n", method);
+        bool plain = !strcmp(method, "plain");
+        fprintf(f, "transfer: {method: %s}\n", plain ? "layers" : method);
+        if (plain) fputs("lens: {grain: none, compression: none}\n", f);
         if (c->visibility_m > 0)
             fprintf(f, "weather: {visibility_m: %g, haze: [%g, %g, %g]}\n", c->visibility_m, c->haze[0], c->haze[1], c->haze[2]);
     }

@@ -1,6 +1,6 @@
 # What people type, and how frames run.
 EXTRA_DIST += tests/tap.sh tests/run/same-dataset.sh tests/run/stand-in-gen tests/run/stand-in-post
-EXTRA_PROGRAMS = tests/run/compare-changes tests/run/compare-frame tests/run/compare-masks tests/run/make-place tests/run/project-box \
+EXTRA_PROGRAMS = tests/run/compare-changes tests/run/compare-frame tests/run/compare-masks tests/run/make-place tests/run/measure-hand tests/run/project-box \
   tests/run/same-pixels tests/run/write-makefile
 CLEANFILES += $(EXTRA_PROGRAMS)
 check_DATA = $(EXTRA_PROGRAMS)
@@ -15,6 +15,9 @@ nodist_EXTRA_tests_run_compare_masks_SOURCES = dummy.cxx
 tests_run_compare_masks_LDADD = $(LIB_LIBS)
 tests_run_make_place_SOURCES = %D%/make-place.c
 tests_run_make_place_LDADD = -lm
+tests_run_measure_hand_SOURCES = %D%/measure-hand.c
+nodist_EXTRA_tests_run_measure_hand_SOURCES = dummy.cxx
+tests_run_measure_hand_LDADD = $(POST_LIBS)
 tests_run_project_box_SOURCES = %D%/project-box.c
 tests_run_project_box_LDADD = $(JANSSON_LIBS) -lm
 tests_run_same_pixels_SOURCES = %D%/same-pixels.c
