@@ -230,7 +230,7 @@ static void bind_leg(double w[JOINT_COUNT], const struct body *b, struct vec3 p,
 
 void bind_point(double w[JOINT_COUNT], const struct body *b, struct vec3 p, double drape)
 {
-    double h = b->measures.stature_m, soft = 0.026 * h;
+    double h = b->measures.stature_m;
     memset(w, 0, JOINT_COUNT * sizeof *w);
     int side = p.y < 0;
     struct vec3 left = vec3(p.x, fabs(p.y), p.z), right = vec3(p.x, -fabs(p.y), p.z);
@@ -239,7 +239,10 @@ void bind_point(double w[JOINT_COUNT], const struct body *b, struct vec3 p, doub
     double reach = vec3_dot(tip, way); /* hands go on where the forearm ends */
     if (reach > 0) arm = fmin(arm, vec3_norm(vec3_sub(tip, vec3_scale(way, fmin(reach, 0.12 * h)))) - 0.03 * h);
     double hip_z = b->at[LIMB(0, HIP)].z, leg = nearest(&b->thigh, &b->shin, left), body = fmin(trunk, leg);
-    double armed = ramp(-soft, soft, body - arm) * ramp(-0.02 * h, 0.03 * h, left.y - 0.5 * b->at[LIMB(0, UPPER_ARM)].y);
+    /* At the shoulder arm and trunk are one; a hand that hangs beside the hips moves no cloth there. */
+    double apart_at = ramp(0.06 * h, 0.16 * h, vec3_norm(vec3_sub(left, b->at[LIMB(0, UPPER_ARM)])));
+    double soft = (0.026 - 0.020 * apart_at) * h, bias = 0.012 * h * apart_at;
+    double armed = ramp(-soft, soft, body - arm - bias) * ramp(-0.02 * h, 0.03 * h, left.y - 0.5 * b->at[LIMB(0, UPPER_ARM)].y);
     if (armed > 0) bind_arm(w, b, p, side, armed);
     if (p.z > hip_z + 0.1 * h) {
         bind_trunk(w, b, p, 1 - armed);

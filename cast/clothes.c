@@ -142,8 +142,8 @@ static void wear_trousers(struct wardrobe *wardrobe, const struct person *person
     add_half(s, CUT, 0, vec3(0, 0, top), vec3(0, 0, -1));
     s->seed = 11 + person->name[0];
     if (kind == LEGGINGS) return;
-    s->folds_m = kind == JEANS ? 0.002 : 0.004;
-    double deep = kind == JEANS ? 0.004 : 0.005;
+    s->folds_m = kind == JEANS ? 0.004 : 0.007;
+    double deep = kind == JEANS ? 0.006 : 0.008;
     for (int side = -1; side <= 1; side += 2) {
         add_crease(s, vec3(0.01 * h, side * b->at[LIMB(0, KNEE)].y, b->at[LIMB(0, KNEE)].z), 0.09 * h, deep);
         if (kind != SHORTS) add_crease(s, vec3(0.02 * h, side * b->at[LIMB(0, FOOT)].y, b->at[LIMB(0, FOOT)].z + 0.035 * h), 0.085 * h, 1.6 * deep);
@@ -276,15 +276,15 @@ static void wear_top(struct wardrobe *wardrobe, const struct person *person, con
         if (open) add_half(s, CUT, 0, vec3(0.01 * h, 0, 0), vec3(1, 0, 0));
     }
     s->seed = 17 + person->name[1] + (under ? 5 : 0);
-    s->folds_m = outer ? 0.005 : kind == SWEATER ? 0.004 : 0.005;
-    double deep = outer ? 0.006 : 0.005;
+    s->folds_m = outer ? 0.008 : kind == SWEATER ? 0.006 : 0.007;
+    double deep = outer ? 0.009 : 0.008;
     for (int side = 0; side < 2; side++) {
         const struct vec3 *at = &b->at[LIMB(side, 0)];
         if (!bare) add_crease(s, at[ELBOW], 0.08 * h, deep);
         add_crease(s, vec3_add(at[UPPER_ARM], vec3(0, side ? 0.03 : -0.03, -0.07 * h)), 0.08 * h, 0.7 * deep);
     }
     add_crease(s, vec3(0.02, 0, b->waist_z - 0.02 * h), 0.11 * h, 0.7 * deep);
-    if (kind == DRESS) s->folds_m = 0.006;
+    if (kind == DRESS) s->folds_m = 0.008;
 }
 
 void wear_clothes(struct wardrobe *wardrobe, const struct person *person, const struct body *b)

@@ -19,18 +19,18 @@ double curve_at(knots knot, int n, double x)
     return s * s * (1 + 2 * t) * knot[i][1] + t * t * (1 + 2 * s) * knot[i + 1][1] + h * s * t * (s * slope[0] - t * slope[1]);
 }
 
-struct sole sole_create(const struct body *body, const struct hull *hull, int shoe_piece)
+struct sole sole_create(const struct body *body, const struct hull *hull, int shoe_piece, int side)
 {
-    struct vec3 ankle = body->at[LIMB(0, FOOT)], toes = vec3_sub(body->at[LIMB(0, TOES)], ankle);
+    struct vec3 ankle = body->at[LIMB(side, FOOT)], toes = vec3_sub(body->at[LIMB(side, TOES)], ankle);
     struct sole sole = { malloc((hull->points + 1) * sizeof *sole.p), 0, { toes.x, toes.z } };
     if (!sole.p) abort();
     for (size_t i = 0; i < hull->points; i++) {
         struct vec3 p = hull->point[i];
         double weight[JOINT_COUNT];
-        if (hull->piece[i] != shoe_piece || p.y < 0 || p.z > 0.5 * ankle.z) continue;
+        if (hull->piece[i] != shoe_piece || p.z > 0.5 * ankle.z) continue;
         bind_point(weight, body, p, 0);
         double *to = sole.p[sole.count++];
-        to[0] = p.x - ankle.x, to[1] = p.z - ankle.z, to[2] = weight[LIMB(0, TOES)];
+        to[0] = p.x - ankle.x, to[1] = p.z - ankle.z, to[2] = weight[LIMB(side, TOES)];
     }
     return sole;
 }

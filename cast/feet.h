@@ -7,10 +7,10 @@
 
 enum { STEPS = 240 };  /* a fine grid of a leg's loop, from where its foot comes down */
 
-/* Points of the left shoe seen from the side, from the ankle, and how much each follows the toes. */
+/* Points of a shoe seen from the side, from the ankle, and how much each follows the toes. */
 struct sole { double (*p)[3]; size_t count; double toe[2]; };
-/* In: hull with the shoes; is_shoe (pieces) which of its pieces they are */
-struct sole sole_create(const struct body *body, const struct hull *hull, int shoe_piece);
+/* In: shoe_piece  which of the hull's it is */
+struct sole sole_create(const struct body *body, const struct hull *hull, int shoe_piece, int side);
 void sole_release(struct sole *sole);
 
 typedef const double (*knots)[2]; /* (n) of rising x: a smooth curve, level at each extreme */

@@ -69,7 +69,7 @@ static bool is_beyond(struct vec3 face, struct vec3 normal) { return vec3_dot(fa
 /* The shape's own normals tell of more than the triangles do, the less so the fewer those are. */
 static struct normals *make_normals(const struct hull *hull, const struct wardrobe *wardrobe, int level)
 {
-    static const double step_m[3] = { 0.002, 0.006, 0.015 }, share[3] = { 0.3, 0.55, 0.75 }; /* of the faces' mean */
+    static const double step_m[3] = { 0.002, 0.004, 0.015 }, share[3] = { 0.2, 0.4, 0.7 }; /* of the faces' mean */
     struct normals *made = need(calloc(hull->points + 1, sizeof *made));
     for (size_t c = 0; c < 3 * hull->triangles; c++) {
         struct vec3 *sum = &made[hull->triangle[c / 3][c % 3]].smooth;
@@ -91,17 +91,19 @@ static struct normals *make_normals(const struct hull *hull, const struct wardro
     return made;
 }
 
-static uint16_t add_vertex(struct skin_piece *made, struct vec3 p, struct vec3 normal, enum piece piece, const struct garment *g, const struct body *body)
+static uint16_t add_vertex(struct skin_piece *made, struct vec3 p, struct vec3 normal, enum piece piece, const struct garment *g, const struct person *person,
+                           const struct body *body)
 {
     struct skin_vertex *v = &made->vertex[made->vertices];
     if (made->vertices > UINT16_MAX) abort();
-    *v = (struct skin_vertex){ .position = p, .normal = normal, .uv = texture_place(piece, body, p) };
+    *v = (struct skin_vertex){ .position = p, .normal = normal, .uv = texture_place(piece, person, body, p) };
     bind_vertex(v, g, body, p);
     return (uint16_t)made->vertices++;
 }
 
 /* All garments of a piece, as one list of vertices. */
-static struct skin_piece make_piece(enum piece piece, const struct hull *hull, const struct normals *normals, const struct wardrobe *wardrobe, const struct body *body)
+static struct skin_piece make_piece(enum piece piece, const struct hull *hull, const struct normals *normals, const struct wardrobe *wardrobe, const struct person *person,
+                                    const struct body *body)
 {
     struct skin_piece made = { .material = materials[piece].name, .roughness = materials[piece].roughness };
     int32_t(*number)[2] = need(malloc((hull->points + 1) * sizeof *number)); /* of both kinds; -1 as long as there is none */
@@ -114,7 +116,7 @@ static struct skin_piece make_piece(enum piece piece, const struct hull *hull, c
         if (g->piece != piece) continue;
         int beyond = is_beyond(face_of(hull, c / 3), normals[at].smooth);
         struct vec3 normal = beyond ? vec3_unit(normals[at].beyond) : normals[at].smooth;
-        if (number[at][beyond] < 0) number[at][beyond] = add_vertex(&made, hull->point[at], normal, piece, g, body);
+        if (number[at][beyond] < 0) number[at][beyond] = add_vertex(&made, hull->point[at], normal, piece, g, person, body);
         made.index[made.indices++] = (uint16_t)number[at][beyond];
     }
     free(number);
@@ -128,7 +130,7 @@ static bool write_level(int level, const struct hull *hull, const struct wardrob
     struct normals *normals = make_normals(hull, wardrobe, level);
     int count = 0;
     for (int piece = 0; piece < PIECE_COUNT; piece++) {
-        pieces[count] = make_piece((enum piece)piece, hull, normals, wardrobe, body);
+        pieces[count] = make_piece((enum piece)piece, hull, normals, wardrobe, person, body);
         if (pieces[count].indices) count++;
         else free(pieces[count].vertex), free(pieces[count].index);
     }
@@ -193,7 +195,7 @@ static bool write_person(struct listing *listing, const struct person *person, c
     struct clip *clips = need(calloc(MOTION_COUNT, sizeof *clips));
     struct body body = make_body(&person->measures, SOLE_SHARE * person->measures.stature_m);
     struct hull hull = { 0 };
-    wear_shoes(wardrobe, person, &body); /* the left one is the first garment */
+    wear_shoes(wardrobe, person, &body); /* the first two garments: left and right */
     wear_clothes(wardrobe, person, &body);
     wear_head(wardrobe, person, &body);
     carry(wardrobe, person, &body);
@@ -208,9 +210,9 @@ static bool write_person(struct listing *listing, const struct person *person, c
         weigh(weight, wardrobe, level);
         hull_decimate(&hull, triangles[level], weight);
         count[level] = hull.triangles;
-        struct sole sole = sole_create(&body, &hull, 0);
-        for (int motion = 0; motion < MOTION_COUNT; motion++) make_clip(&clips[motion], (enum motion)motion, person, &body, &sole);
-        sole_release(&sole);
+        struct sole soles[2] = { sole_create(&body, &hull, 0, 0), sole_create(&body, &hull, 1, 1) };
+        for (int motion = 0; motion < MOTION_COUNT; motion++) make_clip(&clips[motion], (enum motion)motion, person, &body, soles);
+        for (int side = 0; side < 2; side++) sole_release(&soles[side]);
         if (level == 0) size = standing_size(&hull, wardrobe, &body, &clips[STAND]);
         good = write_level(level, &hull, wardrobe, person, &body, clips, texture, folder, err);
     }

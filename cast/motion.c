@@ -92,6 +92,18 @@ static void pose_held(struct pose_now *pose, const struct person *person, const 
     pose->turn[HELD] = then(lean_right(radians(-7)), lift(radians(-9)));
 }
 
+/* Hands that do something else than swing. sway: -1 to 1, with the steps. */
+static void pose_hands(struct pose_now *pose, const struct person *person, const struct body *b, double sway)
+{
+    for (int side = 0; side < 2 && person->hands == IN_POCKETS; side++)
+        pose_arm(pose, b, side, arm_out(b) + radians(9), radians(-10 + 2 * sway * (side ? -1 : 1)), radians(42 + 4 * habit(person, 23 + side)), radians(20));
+    if (person->hands == AT_PHONE) {
+        pose_arm(pose, b, 1, radians(7), radians(16 + sway), radians(98), radians(30));
+        pose->turn[HEAD] = then(pose->turn[HEAD], lift(radians(-17)));
+        pose->turn[NECK] = then(pose->turn[NECK], lift(radians(-7)));
+    }
+}
+
 /* Trunk and arms at a part p of the loop, which begins as the left foot comes down. */
 static void pose_trunk(struct pose_now *pose, const struct person *person, const struct body *b, const struct gait *g, double p)
 {
@@ -112,6 +124,7 @@ static void pose_trunk(struct pose_now *pose, const struct person *person, const
         double ahead = radians(own * g->arm * (forward + 0.12) - (run > 0 ? 12 : 0));
         pose_arm(pose, b, side, arm_out(b) + radians(6 * run), ahead, radians(bend + own * g->arm_bend_swing * forward), radians(run > 0 ? 28 : 9));
     }
+    if (run == 0) pose_hands(pose, person, b, sin(a));
     pose_held(pose, person, b, radians(6) * held);
 }
 
@@ -176,14 +189,14 @@ static struct vec3 ankle_of(const struct body *b, const struct gait *g, const st
 
 static void make_gait(struct clip *clip, const struct gait *g, const struct person *person, const struct body *b, const struct sole *sole)
 {
-    struct step steps[STEPS];
+    struct step steps[2][STEPS];
     struct pose_now pose = { 0 };
     double leg = leg_length(b), height = 1e9, toes_out = radians(5 + 3 * habit(person, 8));
     clip->name = g->name;
     clip->stride_m = g->stride * leg * (1 + 0.03 * habit(person, 9));
     clip->duration_s = clip->stride_m / sqrt(g->froude * 9.81 * leg);
     clip->keys = MOST_KEYS;
-    roll_foot(steps, sole, &g->roll, clip->stride_m, leg, b->at[HIPS].x + (g->lean > 5 ? 0.03 : 0.0) * leg);
+    for (int side = 0; side < 2; side++) roll_foot(steps[side], &sole[side], &g->roll, clip->stride_m, leg, b->at[HIPS].x + (g->lean > 5 ? 0.03 : 0.0) * leg);
 #define RISE(p) (-g->bounce * leg * cos(4 * M_PI * ((p) - g->low)))
     /* As high as lets the standing legs reach the ground. */
     for (int i = 0; i < STEPS; i++) {
@@ -191,7 +204,7 @@ static void make_gait(struct clip *clip, const struct gait *g, const struct pers
         pose_trunk(&pose, person, b, g, p);
         for (int side = 0; side < 2; side++) {
             double part = p + 0.5 * side;
-            struct step step = step_at(steps, part);
+            struct step step = step_at(steps[side], part);
             bool stands = part - floor(part) <= g->roll.stands;
             height = fmin(height, reach(&pose, b, ankle_of(b, g, &step, side), side, stands ? (g->lean > 5 ? 1.0 : 0.995) : 0.9995) - RISE(p));
         }
@@ -201,7 +214,7 @@ static void make_gait(struct clip *clip, const struct gait *g, const struct pers
         pose_trunk(&pose, person, b, g, p);
         pose.hips.z = height + RISE(p);
         for (int side = 0; side < 2; side++) {
-            struct step step = step_at(steps, p + 0.5 * side);
+            struct step step = step_at(steps[side], p + 0.5 * side);
             pose_leg(&pose, b, ankle_of(b, g, &step, side), side, step.pitch, step.bend, toes_out);
         }
         write_key(clip, &pose, key);
@@ -233,6 +246,7 @@ static void make_stand(struct clip *clip, const struct person *person, const str
             double way = side ? -1 : 1, easy = 0.5 - 0.5 * way * on;
             pose_arm(&pose, b, side, arm_out(b) + radians(2 * easy), radians(3 + 5 * habit(person, 16 + side) + 2.5 * easy), radians(11 + 6 * habit(person, 18 + side) + 3 * sin(a + side)), radians(12));
         }
+        pose_hands(&pose, person, b, 0.5 * sin(a));
         pose_held(&pose, person, b, radians(2 * sin(a)));
         struct vec3 ankle[2];
         for (int side = 0; side < 2; side++) {

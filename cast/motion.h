@@ -17,6 +17,7 @@ struct clip {
     struct vec3 hips[MOST_KEYS + 1];
 };
 
+/* In: sole (2) of the left and the right shoe */
 void make_clip(struct clip *clip, enum motion motion, const struct person *person, const struct body *body, const struct sole *sole);
 
 #endif

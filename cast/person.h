@@ -13,6 +13,7 @@ enum top { T_SHIRT, SHIRT, SWEATER, JACKET, OPEN_JACKET, HOODIE, COAT, OPEN_COAT
 enum bottom { TROUSERS, JEANS, LEGGINGS, SHORTS, SKIRT, LONG_SKIRT };
 enum shoes { SNEAKERS, LEATHER_SHOES, BOOTS };
 enum carried { NOTHING, HANDBAG, SHOULDER_BAG, BACKPACK, UMBRELLA };
+enum hands { SWINGING, IN_POCKETS, AT_PHONE };
 enum pattern { PLAIN, STRIPES, CHECKS, PRINT, WORN };
 
 struct person {
@@ -23,6 +24,7 @@ struct person {
     enum bottom bottom;
     enum shoes shoes;
     enum carried carried;
+    enum hands hands;
     enum pattern top_pattern, bottom_pattern;
     double skin[3], hair_color[3], top_color[3], under_color[3], bottom_color[3], shoes_color[3], carried_color[3]; /* sRGB, 0 to 1 */
     bool beard;

@@ -23,7 +23,10 @@ static const struct tile { int x, y, width, height; } tiles[PIECE_COUNT] = {
 
 static struct vec2 vec2(double x, double y) { return (struct vec2){ x, y }; }
 
-static struct vec2 in_tile(enum piece piece, const struct body *b, struct vec3 p)
+/* From the front and from behind alike; a pattern is laid aslant, so that it is not drawn out on the sides. */
+static double across(enum pattern pattern, struct vec3 p) { return pattern == PLAIN || pattern == WORN ? p.y : p.y + 0.6 * p.x; }
+
+static struct vec2 in_tile(enum piece piece, const struct person *person, const struct body *b, struct vec3 p)
 {
     double rise = (p.z - b->sole_m) / b->measures.stature_m;
     struct vec3 head = vec3_scale(vec3_sub(p, vec3(b->at[HEAD].x - 0.02 * b->head_m, 0, b->chin_z)), 1 / b->head_m);
@@ -34,15 +37,16 @@ static struct vec2 in_tile(enum piece piece, const struct body *b, struct vec3 p
         return vec2(0.5 + 0.7 * p.y, HEAD_PART + 0.03 + 0.16 * (1 - rise));
     case HAIR_PIECE: case HAT_PIECE: return vec2(fabs(atan2(head.y, head.x + 0.1)) / M_PI, 0.8 - 0.55 * head.z);
     case SHOES_PIECE: return vec2(0.5 + 1.6 * p.x, 1 - 5 * p.z);
-    case BOTTOM_PIECE: return vec2(0.5 + p.y, 1 - rise / LOW_TOP);
+    case BOTTOM_PIECE: return vec2(0.5 + across(person->bottom_pattern, p), 1 - rise / LOW_TOP);
+    case TOP_PIECE: return vec2(0.5 + across(person->top_pattern, p) / UP_WIDE_M, 1 - (rise - UP_LOW) / UP_SPAN);
     default: return vec2(0.5 + p.y / UP_WIDE_M, 1 - (rise - UP_LOW) / UP_SPAN);
     }
 }
 
-struct vec2 texture_place(enum piece piece, const struct body *body, struct vec3 p)
+struct vec2 texture_place(enum piece piece, const struct person *person, const struct body *body, struct vec3 p)
 {
     const struct tile *t = &tiles[piece];
-    struct vec2 at = in_tile(piece, body, p);
+    struct vec2 at = in_tile(piece, person, body, p);
     /* Between the outermost pixels' centres: a tile must not take from its neighbour, at half its size neither. */
     double u = 1 + (t->width - 2) * fmin(fmax(at.x, 0), 1), v = 1 + (t->height - 2) * fmin(fmax(at.y, 0), 1);
     return vec2((t->x + u) / TEXTURE_PX, (t->y + v) / TEXTURE_PX);
@@ -99,10 +103,19 @@ static struct color paint_head(const struct person *person, double u, double z, 
     return mixed(c, hair, scalp * 0.9);
 }
 
+/* Light and shade of small folds, that run down and aslant. */
+static double fold_shade(double y, double z, double seed)
+{
+    double slant = 0.5 * noise(vec3(y * 5, z * 5, 1), seed);
+    double down = noise(vec3(y * 34 + 3 * slant, z * 7, 2), seed), across = noise(vec3(y * 9 + 4 * z, z * 30 + 9 * y + 4 * slant, 3), seed + 2);
+    double crease = ramp(0.10, 0.0, fabs(across - 0.5)) * noise(vec3(y * 8, z * 8, 6), seed);
+    return 1 + 0.22 * (down - 0.5) + 0.16 * (across - 0.5) - 0.26 * crease;
+}
+
 static struct color paint_cloth(struct color c, enum pattern pattern, double y, double z, double seed)
 {
     double fine = noise(vec3(y * 160, z * 160, 0), seed), large = noise(vec3(y * 9, z * 6, 3), seed);
-    double light = 1 + 0.07 * (fine - 0.5) + 0.14 * (large - 0.5);
+    double light = (1 + 0.08 * (fine - 0.5) + 0.16 * (large - 0.5)) * fold_shade(y, z, seed);
     switch (pattern) {
     case STRIPES: c = mixed(c, (struct color){ { 0.90, 0.89, 0.86 } }, fmod(fabs(z), 0.052) < 0.024 ? 0.85 : 0); break;
     case CHECKS: {
@@ -129,6 +142,7 @@ static struct color paint_bottom(const struct person *person, double y, double z
     double knee = ramp(0.08, 0.02, fabs(z - 0.29)) * ramp(0.10, 0.04, fabs(fabs(y) - 0.09)), thigh = ramp(0.16, 0.05, fabs(z - 0.40)) * ramp(0.09, 0.02, fabs(fabs(y) - 0.10));
     if (person->bottom_pattern == WORN) c = mixed(c, (struct color){ { 0.72, 0.76, 0.82 } }, 0.28 * thigh + 0.14 * knee);
     c = paint_cloth(c, person->bottom_pattern, y, z * person->measures.stature_m, 21);
+    c = shaded(c, (1 - 0.25 * ramp(0.035, 0.0, fabs(y)) * ramp(0.36, 0.44, z)) * (1 - 0.12 * ramp(0.03, 0.0, fabs(y))));
     c = shaded(c, 1 - 0.18 * ramp(0.09, 0.03, z));                                /* dusty, worn hems */
     if (fabs(z - 0.475) < 0.006 && person->bottom != LEGGINGS) c = shaded(c, 0.85);
     return c;
@@ -140,7 +154,7 @@ static struct color paint_top(const struct person *person, double y, double z)
     double meters = z * person->measures.stature_m;
     c = paint_cloth(c, person->top_pattern, y, meters, 31 + person->name[0]);
     bool buttoned = person->top == SHIRT || person->top == COAT || person->top == JACKET;
-    if (buttoned && fabs(y) < 0.012 && z < 0.84) c = shaded(c, 0.72);             /* where it closes */
+    if (buttoned && person->top_pattern == PLAIN && fabs(y) < 0.012 && z < 0.84) c = shaded(c, 0.72);             /* where it closes */
     if ((person->top == SWEATER || person->top == HOODIE) && (fabs(z - 0.497) < 0.014)) c = shaded(c, 0.86);
     if ((person->top == JACKET || person->top == COAT || person->top == OPEN_COAT) && fabs(z - 0.545) < 0.004 && fabs(y) > 0.06 && fabs(y) < 0.15) c = shaded(c, 0.6); /* pockets */
     if (person->top == DRESS && fabs(z - 0.615) < 0.008) c = shaded(c, 0.7);

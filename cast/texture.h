@@ -11,7 +11,7 @@ struct texture { uint8_t rgb[TEXTURE_PX][TEXTURE_PX][3]; };
 
 void paint_texture(struct texture *texture, const struct person *person);
 /* Where in it a point of a piece lies, 0 to 1 from its upper left corner. */
-struct vec2 texture_place(enum piece piece, const struct body *body, struct vec3 p);
+struct vec2 texture_place(enum piece piece, const struct person *person, const struct body *body, struct vec3 p);
 /* As PNG, at 1/shrink of its size. The caller frees. */
 uint8_t *texture_png(size_t *size, const struct texture *texture, int shrink);
 

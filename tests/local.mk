@@ -226,6 +226,11 @@ tests_gen_model_texture_test_SOURCES = %D%/gen/model_texture.c %D%/gen/model_fil
 nodist_EXTRA_tests_gen_model_texture_test_SOURCES = dummy.cxx
 tests_gen_model_texture_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/repertoire.test
+tests_gen_repertoire_test_SOURCES = %D%/gen/model_files.h %D%/gen/repertoire.c %D%/gen/walker_files.h %D%/tap.h
+nodist_EXTRA_tests_gen_repertoire_test_SOURCES = dummy.cxx
+tests_gen_repertoire_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/rig.test
 tests_gen_rig_test_SOURCES = %D%/gen/rig.c %D%/gen/model_files.h %D%/gen/rig_table.h %D%/gen/walker_files.h %D%/tap.h
 nodist_EXTRA_tests_gen_rig_test_SOURCES = dummy.cxx

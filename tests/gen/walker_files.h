@@ -14,6 +14,7 @@ static const char *in_folder(const char *variable, const char *path)
 }
 
 /* The same walk, but that the hips go `ahead_m` along the file's front (+z) in each loop, and sway by sway_m. */
+__attribute__((unused))
 static const char *put_going(const char *name, const char *walker, double ahead_m, double sway_m)
 {
     struct error err = ERROR_NONE;
