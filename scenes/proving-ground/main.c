@@ -16,7 +16,7 @@
 static const char usage[] =
     "usage: proving-ground cases\n"
     "       proving-ground scene CASE known|auto|light METHOD MODELS FILE\n"
-    "       proving-ground pov CASE SHOT KIND LIGHT FILE    prints width, height, window, extension\n"
+    "       proving-ground pov CASE SHOT KIND FILE    prints width, height, extension\n"
     "       proving-ground develop CASE SHOT FOLDER         radiance to photograph and truth\n"
     "       proving-ground reconstruct CASE FOLDER\n"
     "       proving-ground compare CASE SHOT FOLDER OUT METHOD\n"
@@ -51,29 +51,14 @@ static int list_cases(void)
     return 0;
 }
 
-/* Out: *has_sun */
-static bool read_sun(struct vec3 *sun, bool *has_sun, const char *light, struct error *err)
-{
-    char *text;
-    size_t size;
-    if (!file_read(&text, &size, light, err)) return false;
-    const char *at = strstr(text, "Sun_Direction = <");
-    *has_sun = at && sscanf(at, "Sun_Direction = <%lf,%lf,%lf>", &sun->x, &sun->y, &sun->z) == 3;
-    free(text);
-    return true;
-}
-
 static bool pov(char **a, struct error *err)
 {
     const struct proving_case *c;
-    struct vec3 sun;
-    bool has_sun;
-    if (!find_case(&c, a[0], err) || !read_sun(&sun, &has_sun, a[3], err)) return false;
+    if (!find_case(&c, a[0], err)) return false;
     struct camera camera = camera_of(c);
     struct pov_job job;
-    if (!write_pov(&job, a[4], a[2], c, strtoul(a[1], NULL, 10), &camera, fineness(), has_sun ? &sun : NULL, err)) return false;
-    printf("%d %d %d %d %d %d %s\n", job.width_px, job.height_px, job.window_px.x0, job.window_px.y0, job.window_px.x1,
-           job.window_px.y1, job.is_png ? "png" : "exr");
+    if (!write_pov(&job, a[3], a[2], c, strtoul(a[1], NULL, 10), &camera, fineness(), err)) return false;
+    printf("%d %d %s\n", job.width_px, job.height_px, job.is_png ? "png" : "exr");
     return true;
 }
 
@@ -94,28 +79,6 @@ static bool write_part(const char *folder, const char *name, const char *shot, c
     return ok;
 }
 
-/* Outside the window of the truth the street is as it was. */
-static void fill_outside(struct image *truth, const struct image *without, struct rect w)
-{
-    size_t size = image_pixel_size(truth), row = size * (size_t)truth->width_px;
-    for (int y = 0; y < truth->height_px; y++)
-        for (int x = 0; x < truth->width_px; x++)
-            if (x < w.x0 || y < w.y0 || x >= w.x1 || y >= w.y1)
-                memcpy((char *)truth->data + (size_t)y * row + (size_t)x * size, (char *)without->data + (size_t)y * row + (size_t)x * size, size);
-}
-
-static bool read_window(struct rect *w, const char *folder, const char *shot, const char *name, struct error *err)
-{
-    char *path = string_format("%s/%s-%s", folder, shot, name), *text = NULL;
-    size_t size;
-    bool ok = path && file_read(&text, &size, path, err);
-    if (ok && sscanf(text, "%*d %*d %d %d %d %d", &w->x0, &w->y0, &w->x1, &w->y1) != 4)
-        ok = error_at(err, ERR_INPUT, path, 0, 0, "holds no window");
-    free(path);
-    free(text);
-    return ok;
-}
-
 static bool develop(char **a, struct error *err)
 {
     const struct proving_case *c;
@@ -124,16 +87,11 @@ static bool develop(char **a, struct error *err)
     struct camera camera = camera_of(c);
     struct pinhole pinhole;
     struct image radiance[2] = { 0 }, range[2] = { 0 }, linear[2] = { 0 }, developed[2] = { 0 };
-    struct rect window;
     uint64_t key = hash_bytes(hash_bytes(FILE_HASH_SEED, c->name, strlen(c->name)), shot, strlen(shot));
-    bool ok = pinhole_cover(&pinhole, &camera, fineness(), err) && read_window(&window, folder, shot, "truth.job", err) &&
+    bool ok = pinhole_cover(&pinhole, &camera, fineness(), err) &&
               read_part(&radiance[0], folder, shot, "photograph.exr", err) && read_part(&radiance[1], folder, shot, "truth.exr", err) &&
               (c->visibility_m <= 0 || (read_part(&range[0], folder, shot, "range.png", err) &&
                                         read_part(&range[1], folder, shot, "truth-range.png", err)));
-    if (ok) {
-        fill_outside(&radiance[1], &radiance[0], window);
-        if (range[0].data) fill_outside(&range[1], &range[0], window);
-    }
     for (int i = 0; ok && i < 2; i++) {
         const char *name = i ? "truth" : "photograph";
         ok = develop_light(&linear[i], &radiance[i], &range[i], &pinhole, &camera, c, err) &&
@@ -209,7 +167,7 @@ static bool scene(char **a, struct error *err)
 }
 
 static const struct command { const char *name; int arguments; bool (*run)(char **, struct error *); } commands[] = {
-    { "scene", 5, scene }, { "pov", 5, pov }, { "develop", 3, develop }, { "reconstruct", 2, reconstruct_place },
+    { "scene", 5, scene }, { "pov", 4, pov }, { "develop", 3, develop }, { "reconstruct", 2, reconstruct_place },
     { "compare", 5, compare_shot }, { "picture", 5, picture },
 };
 

@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define REACH_M 2.2 /* beside entities and their shadows, within which they change the light */
-
 struct bounds { double x0, y0, x1, y1; };
 
 static void bounds_add(struct bounds *b, double x, double y)
@@ -28,10 +26,10 @@ static struct vec3 half_box(const struct proving_entity *e)
     return !strcmp(e->class_, "person") ? vec3(0.7, 0.7, 2.1) : vec3(2.7, 1.25, 2.0);
 }
 
-static struct vec3 box_corner(const struct proving_entity *e, int i, double reach_m)
+static struct vec3 box_corner(const struct proving_entity *e, int i)
 {
     struct vec3 h = half_box(e);
-    struct vec3 p = vec3((i & 1 ? 1 : -1) * (h.x + reach_m), (i & 2 ? 1 : -1) * (h.y + reach_m), i & 4 ? h.z : -0.05);
+    struct vec3 p = vec3((i & 1 ? 1 : -1) * h.x, (i & 2 ? 1 : -1) * h.y, i & 4 ? h.z : -0.05);
     return pose_apply(proving_entity_pose(e), p);
 }
 
@@ -43,30 +41,13 @@ bool label_window(struct rect *window_px, const struct proving_case *c, size_t s
     for (size_t i = 0; i < proving_entity_count(c); i++)
         for (int k = 0; (n == 0 || i == n - 1) && k < 8; k++) {
             struct vec2 q;
-            struct vec3 p = pose_apply(camera_from_world, box_corner(&c->entities[i], k, 0));
+            struct vec3 p = pose_apply(camera_from_world, box_corner(&c->entities[i], k));
             if (!camera_project(camera, &q, p, err)) return error_prefix(err, "%s: an entity outside the lens: ", c->name);
             bounds_add(&b, q.x - 2, q.y - 2);
             bounds_add(&b, q.x + 2, q.y + 2);
         }
     *window_px = bounds_rect(&b, camera->width_px, camera->height_px);
     return true;
-}
-
-/* What entities, their shadows and what bounces beside them can cover of the pinhole's picture. */
-static struct rect changed_window(const struct pinhole *p, const struct proving_case *c, size_t shot, const struct vec3 *sun)
-{
-    struct pose camera_from_world = pose_inverse(proving_shot_pose(&c->shots[shot]));
-    struct bounds b = bounds_none();
-    for (size_t i = 0; i < proving_entity_count(c); i++)
-        for (int k = 0; k < 16; k++) {
-            if (k >= 8 && !sun) continue;
-            struct vec3 w = box_corner(&c->entities[i], k & 7, REACH_M);
-            if (k >= 8) w = vec3_sub(w, vec3_scale(*sun, w.z / sun->z));
-            struct vec3 q = pose_apply(camera_from_world, w);
-            if (q.z < 0.5) continue;
-            bounds_add(&b, p->cx_px + p->f_px * q.x / q.z, p->cy_px + p->f_px * q.y / q.z);
-        }
-    return bounds_rect(&b, p->width_px, p->height_px);
 }
 
 /* --- text --- */
@@ -145,7 +126,7 @@ static void put_height_texture(FILE *f)
 }
 
 static bool put_scene(FILE *f, struct pov_job *job, const char *kind, const struct proving_case *c, size_t shot,
-                      const struct camera *camera, double fineness, const struct vec3 *sun, struct error *err)
+                      const struct camera *camera, double fineness, struct error *err)
 {
     struct pose world_from_camera = proving_shot_pose(&c->shots[shot]);
     size_t alone = !strncmp(kind, "alone-", 6) ? strtoul(kind + 6, NULL, 10) : 0;
@@ -161,11 +142,9 @@ static bool put_scene(FILE *f, struct pov_job *job, const char *kind, const stru
         if (!label_window(&w, c, shot, camera, alone, err) || !put_ray_camera(f, camera, world_from_camera, w, err)) return false;
         job->width_px = w.x1 - w.x0;
         job->height_px = w.y1 - w.y0 + 1; /* POV-Ray gives the first row of faces to the first row and to the second */
-        job->window_px = (struct rect){ 0, 0, job->width_px, job->height_px };
     } else if (heights) {
         job->width_px = PROVING_MESH_COLUMNS;
         job->height_px = PROVING_MESH_ROWS;
-        job->window_px = (struct rect){ 0, 0, job->width_px, job->height_px };
         double w = PROVING_MESH_COLUMNS * PROVING_MESH_CELL_M, h = PROVING_MESH_ROWS * PROVING_MESH_CELL_M;
         fprintf(f, "camera { orthographic location <%.9g, %.9g, 100> right %.9g * x up %.9g * y direction -z }\n",
                 PROVING_MESH_X0_M + w / 2, PROVING_MESH_Y0_M + h / 2, w, h);
@@ -173,7 +152,6 @@ static bool put_scene(FILE *f, struct pov_job *job, const char *kind, const stru
         put_pinhole(f, &pinhole, world_from_camera);
         job->width_px = pinhole.width_px;
         job->height_px = pinhole.height_px;
-        job->window_px = truth ? changed_window(&pinhole, c, shot, sun) : (struct rect){ 0, 0, pinhole.width_px, pinhole.height_px };
     }
     if (lit) fputs("#include \"light.inc\"\n#include \"light_proving.inc\"\n#include \"street_materials.inc\"\n", f);
     else {
@@ -201,10 +179,10 @@ static bool put_scene(FILE *f, struct pov_job *job, const char *kind, const stru
 }
 
 bool write_pov(struct pov_job *job, const char *path, const char *kind, const struct proving_case *c, size_t shot,
-               const struct camera *camera, double fineness, const struct vec3 *sun, struct error *err)
+               const struct camera *camera, double fineness, struct error *err)
 {
     FILE *f = fopen(path, "w");
     if (!f) return error_at(err, ERR_INPUT, path, 0, 0, "cannot be written");
-    bool ok = put_scene(f, job, kind, c, shot, camera, fineness, sun, err);
+    bool ok = put_scene(f, job, kind, c, shot, camera, fineness, err);
     return (fclose(f) == 0 || error_at(err, ERR_INPUT, path, 0, 0, "cannot be written")) && ok;
 }

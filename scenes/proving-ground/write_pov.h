@@ -18,16 +18,16 @@ enum {
 #define PROVING_MESH_CELL_M 0.2
 enum { PROVING_MESH_COLUMNS = 450, PROVING_MESH_ROWS = 260 };
 
-struct pov_job { int width_px, height_px; struct rect window_px; bool is_png; };
+struct pov_job { int width_px, height_px; bool is_png; };
 
-/* Write `kind` as a scene: photograph, truth, range, truth-range (through the pinhole; in truths with the entities, and
- * only the window that they can change is wanted); labels (one ray through each pixel's centre, of the place and the
+/* Write `kind` as a scene: photograph, truth, range, truth-range (through the pinhole, in truths with the entities; whole, so
+ * that radiosity takes its samples at the same places); labels (one ray through each pixel's centre, of the place and the
  * entities), alone-N (of entity N alone, in the window that it can cover; of both the picture's first
  * row is to be left out), heights (from above, orthographic).
- * In:  camera at the size wanted; sun (unit) or NULL
+ * In:  camera at the size wanted
  * Out: job, how to render it */
 bool write_pov(struct pov_job *job, const char *path, const char *kind, const struct proving_case *c, size_t shot,
-               const struct camera *camera, double fineness, const struct vec3 *sun, struct error *err);
+               const struct camera *camera, double fineness, struct error *err);
 /* The window of the photograph that alone-N covers; of all entities for n = 0: that of labels. */
 bool label_window(struct rect *window_px, const struct proving_case *c, size_t shot, const struct camera *camera, size_t n,
                   struct error *err);
