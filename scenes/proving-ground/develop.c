@@ -19,7 +19,7 @@ static bool expose(struct image *out, const struct image *radiance, const struct
         for (int x = 0; x < out->width_px; x++) {
             float *to = image_f32(out, x, y);
             memcpy(to, image_f32(radiance, x, y), 3 * sizeof *to);
-            through_air(to, range->data ? (double)*image_u16(range, x, y) / 65535 * PROVING_RANGE_M : 0, c);
+            through_air(to, (double)*image_u16(range, x, y) / 65535 * PROVING_RANGE_M, c);
         }
     return true;
 }

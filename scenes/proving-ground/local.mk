@@ -7,6 +7,7 @@ scenes_proving_ground_proving_ground_SOURCES = \
   %D%/compare_hand.c %D%/compare_hand.h \
   %D%/compare_picture.c %D%/compare_picture.h \
   %D%/develop.c %D%/develop.h \
+  %D%/influence.c %D%/influence.h \
   %D%/main.c \
   %D%/picture.c %D%/picture.h \
   %D%/pinhole.c %D%/pinhole.h \

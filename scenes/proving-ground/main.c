@@ -1,6 +1,7 @@
 /* proving-ground: what `prove` needs done between the renders. */
 #include "compare.h"
 #include "develop.h"
+#include "influence.h"
 #include "picture.h"
 #include "pinhole.h"
 #include "reconstruct.h"
@@ -90,8 +91,8 @@ static bool develop(char **a, struct error *err)
     uint64_t key = hash_bytes(hash_bytes(FILE_HASH_SEED, c->name, strlen(c->name)), shot, strlen(shot));
     bool ok = pinhole_cover(&pinhole, &camera, fineness(), err) &&
               read_part(&radiance[0], folder, shot, "photograph.exr", err) && read_part(&radiance[1], folder, shot, "truth.exr", err) &&
-              (c->visibility_m <= 0 || (read_part(&range[0], folder, shot, "range.png", err) &&
-                                        read_part(&range[1], folder, shot, "truth-range.png", err)));
+              read_part(&range[0], folder, shot, "range.png", err) && read_part(&range[1], folder, shot, "truth-range.png", err) &&
+              influence_limit(&radiance[1], &radiance[0], &range[1], &pinhole, c, strtoul(shot, NULL, 10), err);
     for (int i = 0; ok && i < 2; i++) {
         const char *name = i ? "truth" : "photograph";
         ok = develop_light(&linear[i], &radiance[i], &range[i], &pinhole, &camera, c, err) &&
