@@ -51,7 +51,7 @@ extern const struct vec3 proving_post_m;
 #define PROVING_POST_HEIGHT_M 6.0
 
 /* What the camera does to the light, the same in every case. */
-#define PROVING_SOFTNESS_PX 0.55    /* standard deviation, at full size, besides the area of a pixel */
+#define PROVING_SOFTNESS_PX 0.55    /* standard deviation at any size, besides the area of a pixel */
 #define PROVING_VIGNETTING 0.10     /* of the light, lost in the corners, with the square of the distance */
 #define PROVING_SHOT_NOISE 6e-5     /* variance = this * value + that^2, linear values of 0 to 1 */
 #define PROVING_READ_NOISE 6e-4

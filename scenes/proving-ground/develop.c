@@ -52,10 +52,9 @@ static bool distort(struct image *out, const struct image *in, const struct pinh
 /* The lens's softness and the area of a pixel, as one Gaussian; what the area of the pinhole's pixels (1/12) and sampling
  * between them (1/6) have softened already is left out. */
 enum { TAPS = 12 };
-static void softness_kernel(float weight[TAPS], double fineness, double scale)
+static void softness_kernel(float weight[TAPS], double fineness)
 {
-    double soft = PROVING_SOFTNESS_PX * scale, variance = soft * soft + 1.0 / 12 - 0.25 / (fineness * fineness), sum = 0, w[TAPS];
-    if (variance < 0.04) variance = 0.04;
+    double variance = PROVING_SOFTNESS_PX * PROVING_SOFTNESS_PX + 1.0 / 12 - 0.25 / (fineness * fineness), sum = 0, w[TAPS];
     for (int i = 0; i < TAPS; i++) {
         double at = (i + 0.5 - TAPS / 2.0) / 2;
         w[i] = exp(-at * at / (2 * variance));
@@ -64,13 +63,13 @@ static void softness_kernel(float weight[TAPS], double fineness, double scale)
     for (int i = 0; i < TAPS; i++) weight[i] = (float)(w[i] / sum);
 }
 
-static bool soften(struct image *out, const struct image *fine, const struct camera *camera, double fineness, double scale, struct error *err)
+static bool soften(struct image *out, const struct image *fine, const struct camera *camera, double fineness, struct error *err)
 {
     struct image rows;
     if (!image_init(&rows, camera->width_px, fine->height_px, 3, PIXEL_F32, err)) return false;
     bool ok = image_init(out, camera->width_px, camera->height_px, 3, PIXEL_F32, err);
     float weight[TAPS];
-    softness_kernel(weight, fineness, scale);
+    softness_kernel(weight, fineness);
     for (int y = 0; ok && y < rows.height_px; y++)
         for (int x = 0; x < rows.width_px; x++)
             for (int i = 0; i < TAPS; i++)
@@ -100,9 +99,9 @@ bool develop_light(struct image *linear, const struct image *radiance, const str
                    const struct camera *camera, const struct proving_case *c, struct error *err)
 {
     struct image exposed = { 0 }, fine = { 0 };
-    double fineness = pinhole->f_px / camera_intrinsics(camera).fx_px, scale = (double)camera->width_px / c->camera.width_px;
+    double fineness = pinhole->f_px / camera_intrinsics(camera).fx_px;
     bool ok = expose(&exposed, radiance, range, c, err) && distort(&fine, &exposed, pinhole, camera, err) &&
-              soften(linear, &fine, camera, fineness, scale, err);
+              soften(linear, &fine, camera, fineness, err);
     if (ok) vignette(linear);
     image_release(&exposed);
     image_release(&fine);

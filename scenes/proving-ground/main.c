@@ -23,7 +23,8 @@ static const char usage[] =
     "       proving-ground compare CASE SHOT FOLDER OUT METHOD\n"
     "       proving-ground picture FOLDER SHOT METHOD X0,Y0,X1,Y1 FILE    result, truth, difference\n"
     "       proving-ground table FILE ...\n"
-    "PROVING_WIDTH (960) and PROVING_FINENESS (1.4, pinhole pixels to one of the photograph) set the size.\n";
+    "PROVING_WIDTH (960) and PROVING_FINENESS (1.4, pinhole pixels to one of the photograph) set the size,\n"
+    "PROVING_SHOTS how many of a flight there are at most.\n";
 
 static double setting(const char *name, double otherwise)
 {
@@ -38,16 +39,27 @@ static struct camera camera_of(const struct proving_case *c)
 }
 static double fineness(void) { return setting("PROVING_FINENESS", 1.4); }
 
+static size_t shots_of(const struct proving_case *c)
+{
+    double most = setting("PROVING_SHOTS", (double)c->shot_count);
+    return most >= 1 && most < (double)c->shot_count ? (size_t)most : c->shot_count;
+}
+
 static bool find_case(const struct proving_case **c, const char *name, struct error *err)
 {
-    *c = proving_case(name);
-    return *c || error_set(err, ERR_INPUT, "no case is called \"%s\"", name);
+    static struct proving_case found;
+    const struct proving_case *all = proving_case(name);
+    if (!all) return error_set(err, ERR_INPUT, "no case is called \"%s\"", name);
+    found = *all;
+    found.shot_count = shots_of(all);
+    *c = &found;
+    return true;
 }
 
 static int list_cases(void)
 {
     for (size_t i = 0; i < proving_case_count; i++)
-        printf("%s %zu %zu %d\n", proving_cases[i].name, proving_cases[i].shot_count, proving_entity_count(&proving_cases[i]),
+        printf("%s %zu %zu %d\n", proving_cases[i].name, shots_of(&proving_cases[i]), proving_entity_count(&proving_cases[i]),
                proving_cases[i].has_mesh);
     return 0;
 }

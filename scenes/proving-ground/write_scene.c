@@ -45,8 +45,9 @@ static bool put_occluder(FILE *f, const struct proving_case *c, const struct cam
 /* The street's middle, where the tool lays a smooth road over the reconstruction. */
 #define ROAD "paths: [{name: street, use: vehicles, width_m: 7, points_m: [[-40, 0], [40, 0]]}]\n"
 
-static bool put_photographs(FILE *f, const struct proving_case *c, const struct camera *camera, bool stand_in, struct error *err)
+static bool put_photographs(FILE *f, const struct proving_case *c, const struct camera *camera, const char *variant, struct error *err)
 {
+    bool stand_in = !strcmp(variant, "light"), known = !strcmp(variant, "known");
     if (stand_in) {
         fputs("photographs: {files: [grey.png]}\nexposure: {value: 1}\nground: {height_m: 0, albedo: 0.11}\n"
               "camera: {model: PINHOLE, size_px: [1000, 1000], horizontal_fov_deg: 70, pose: {look_at: "
@@ -59,8 +60,10 @@ static bool put_photographs(FILE *f, const struct proving_case *c, const struct 
         put_camera(f, camera);
         fputs(", ", f);
         put_pose(f, &c->shots[0]);
-        fprintf(f, "\nground: {height_m: 0, albedo: %g}\nexposure: {patch_px: [%.0f, %.0f, %.0f, %.0f]}\n", PROVING_ALBEDO,
-                c->patch_px[0] * scale, c->patch_px[1] * scale, c->patch_px[2] * scale, c->patch_px[3] * scale);
+        fprintf(f, "\nground: {height_m: 0, albedo: %g}\n", PROVING_ALBEDO);
+        if (known)
+            fprintf(f, "exposure: {patch_px: [%.0f, %.0f, %.0f, %.0f]}\n", c->patch_px[0] * scale, c->patch_px[1] * scale,
+                    c->patch_px[2] * scale, c->patch_px[3] * scale);
         return put_occluder(f, c, camera, err);
     }
     fputs("cameras:\n  drone: ", f);
@@ -71,7 +74,7 @@ static bool put_photographs(FILE *f, const struct proving_case *c, const struct 
         put_pose(f, &c->shots[i]);
         fputs("\n", f);
     }
-    fprintf(f, "static: {mesh: place.ply}\nground: {albedo: %g}\nexposure: {roads: true}\n" ROAD, PROVING_ALBEDO);
+    fprintf(f, "static: {mesh: place.ply}\nground: {albedo: %g}\n%s" ROAD, PROVING_ALBEDO, known ? "exposure: {roads: true}\n" : "");
     return true;
 }
 
@@ -118,7 +121,7 @@ bool write_scene(const char *path, const struct proving_case *c, const char *var
     fputs("staffage: 1\nplace: {latitude_deg: 48.1, longitude_deg: 11.5, height_m: 500}\n", f);
     if (stand_in || !c->has_mesh) fprintf(f, "time: %s\n", c->time);
     fprintf(f, "light: %s\n", !strcmp(variant, "auto") ? "auto" : c->light);
-    bool ok = (!stand_in || write_grey(path, err)) && put_photographs(f, c, camera, stand_in, err);
+    bool ok = (!stand_in || write_grey(path, err)) && put_photographs(f, c, camera, variant, err);
     if (!stand_in) {
         bool plain = !strcmp(method, "plain");
         fprintf(f, "transfer: {method: %s}\n", plain ? "layers" : method);

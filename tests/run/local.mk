@@ -39,3 +39,9 @@ EXTRA_DIST += tests/bench.sh tests/bench/craig-1000x750-4.yaml tests/bench/craig
 .PHONY: bench
 bench: all tests/bench/place.bench tests/bench/resize.bench
 	@top_srcdir='$(abs_top_srcdir)' top_builddir='$(abs_top_builddir)' $(srcdir)/tests/bench.sh
+
+check_PROGRAMS += tests/proving/compare_picture.test
+tests_proving_compare_picture_test_SOURCES = tests/proving/compare_picture.c tests/tap.h \
+  scenes/proving-ground/compare_picture.c scenes/proving-ground/compare_picture.h
+nodist_EXTRA_tests_proving_compare_picture_test_SOURCES = dummy.cxx
+tests_proving_compare_picture_test_LDADD = $(LIB_LIBS)
