@@ -209,13 +209,10 @@ static void put_rest(FILE *f, const struct imported *in)
     put_number(f, exposure_s > 0 ? exposure_s : 0.002);
     fputs(exposure_s > 0 ? "}  # by EXIF: what moves is blurred by it\n"
                          : "}  # a guess, for EXIF has none: what moves is blurred by it\n", f);
-    fputs("\n# Who is to come by. The models are files of yours, relative to this file.\n"
-          "#models:\n"
-          "#  hatchback: {file: models/hatchback.obj, length_m: 4.2, up: z, front: -y, class: car}\n"
-          "#  walker: {file: models/walker.glb, class: person}\n"
+    fputs("\n# Who is to come by: staffage models lists who there is, and adds models of yours.\n"
           "#traffic:\n"
-          "#  vehicles: {count: 12, models: {hatchback: {}}, speed_m_s: 8}\n"
-          "#  people: {count: 12, models: {walker: {}}, speed_m_s: 1.4}\n", f);
+          "#  vehicles: {count: 12, models: any car, speed_m_s: 8}\n"
+          "#  people: {count: 12, models: any person, speed_m_s: 1.4}\n", f);
 }
 
 bool scene_yaml_has_times(const struct imported *in)

@@ -23,11 +23,10 @@ check "says what is to be filled in" says '^scene: .* light, exposure, lens '
 check "photographs are named from the scene's folder" grep -q '^  - photograph: images/a.png$' project/flight.yaml
 
 # The #, and nothing else, is taken away from every key in a comment.
-sed -i -e 's/^#ground:/ground:/' -e 's/^#lens:/lens:/' -e 's/^#models:/models:/' \
-    -e 's/^#\(  hatchback: \).*/\1{file: box.obj, unit_m: 1, up: z, front: x, class: car}/' \
+sed -i -e 's/^#ground:/ground:/' -e 's/^#lens:/lens:/' \
     -e 's/^#light: .*/light: {sky: overcast}/' -e 's/^#exposure: .*/exposure: {value: 1}/' project/flight.yaml
 cat >>project/flight.yaml <<'TEXT'
-entities: [{name: box, model: hatchback, at: {world_m: [2.5, 0]}, heading_deg: 0}]
+entities: [{name: car, model: any car, at: {world_m: [2.5, 0]}, heading_deg: 0}]
 TEXT
 run "$top_builddir/staffage-gen" project/flight.yaml -o out
 check "completed, it is a scene that is generated" is $status 0
