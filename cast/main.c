@@ -1,6 +1,7 @@
 /* Writes our own models: `staffage-cast FOLDER` makes OBJ and MTL files there, in metres, z up,
  * front +x, and people that walk as GLB files. The same numbers give the same bytes on every run. */
 #include "cast/figure.h"
+#include "cast/fleet.h"
 #include "cast/glb.h"
 #include "cast/listing.h"
 #include "cast/mesh.h"
@@ -23,9 +24,8 @@ static bool list_model(struct listing *listing, const struct model *model, const
             low = vec3(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
             high = vec3(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
         }
-    bool person = model->triangles[0].material >= SKIN;
     snprintf(file, sizeof file, "%s.%s", name, moves ? "glb" : "obj");
-    struct listed listed = { .name = name, .class_ = person ? "person" : "car", .kind = person ? "person" : "vehicle", .file = file,
+    struct listed listed = { .name = name, .class_ = "person", .kind = "person", .file = file,
                              .length_m = high.x - low.x, .width_m = high.y - low.y, .height_m = high.z - low.z,
                              .triangles = { model->count }, .animations = moves ? walk : NULL };
     if (!moves) {
@@ -38,11 +38,6 @@ static bool list_model(struct listing *listing, const struct model *model, const
 
 int main(int argc, char **argv)
 {
-    static const struct palette sedan_colors = { {
-        [PAINT] = { 0.55, 0.56, 0.58 }, [GLASS] = { 0.12, 0.13, 0.13 }, [TRIM] = { 0.025, 0.025, 0.027 },
-        [UNDERSIDE] = { 0.015, 0.015, 0.015 }, [INTERIOR] = { 0.06, 0.06, 0.062 }, [HEADLIGHT] = { 0.75, 0.77, 0.80 },
-        [TAIL_LIGHT] = { 0.45, 0.02, 0.02 }, [PLATE_FRONT] = { 0.8, 0.8, 0.78 }, [PLATE_REAR] = { 0.8, 0.6, 0.08 },
-        [RUBBER] = { 0.03, 0.03, 0.03 }, [RIM] = { 0.6, 0.61, 0.62 } } };
     static const struct { const char *name; enum build build; enum stance stance; struct palette palette; } people[] = {
         { "man-walking", MAN, WALKING, { { [SKIN] = { 0.80, 0.57, 0.46 }, [HAIR] = { 0.05, 0.04, 0.03 },
             [JACKET] = { 0.12, 0.14, 0.18 }, [TROUSERS] = { 0.13, 0.12, 0.11 }, [SHOES] = { 0.05, 0.04, 0.04 } } } },
@@ -68,8 +63,7 @@ int main(int argc, char **argv)
     struct model model = { 0 };
     struct listing listing = { 0 };
     bool good = folder_make(argv[1], &err);
-    if (good) make_sedan(&model);
-    good = good && list_model(&listing, &model, "sedan", false, &err) && write_model(&model, argv[1], "sedan", &sedan_colors, &err);
+    good = good && write_fleet(&listing, argv[1], &err);
     for (size_t i = 0; good && i < COUNT(people); i++) {
         make_person(&model, NULL, people[i].build, people[i].stance, people[i].build == MAN ? 1.78 : 1.66);
         good = list_model(&listing, &model, people[i].name, false, &err) && write_model(&model, argv[1], people[i].name, &people[i].palette, &err);

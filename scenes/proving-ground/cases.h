@@ -10,7 +10,7 @@
 #include <stddef.h>
 
 struct proving_entity {
-    const char *name, *model, *class_;  /* model: a key of models/, without .obj; NULL name ends a list */
+    const char *name, *model, *class_;  /* model: a key of models/, without its ending; NULL name ends a list */
     struct vec3 position_m;             /* on the true street */
     double heading_deg;                 /* clockwise from north */
     const char *color;                  /* "#rrggbb", or NULL */
