@@ -105,6 +105,9 @@ static bool estimate_light(struct generator *g, struct error *err)
     size_t shots[ESTIMATE_PHOTOGRAPHS], n = estimate_shots(shots, g->scene);
     struct estimate_photograph photographs[ESTIMATE_PHOTOGRAPHS] = { 0 };
     char *paths[ESTIMATE_PHOTOGRAPHS] = { 0 };
+    if (n == 0)
+        return error_at(err, ERR_INPUT, g->scene->path, g->scene->light_source.line, g->scene->light_source.column,
+                        "light: is to be told by a photograph, and all shots are new views");
     bool ok = generator_prepare(g, shots, n, err);
     for (size_t i = 0; ok && i < n; i++) {
         char *named = photograph_path(g, shots[i], err);

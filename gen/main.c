@@ -1,5 +1,6 @@
 /* staffage-gen: options in, one call, an exit code out. */
 #include "gen/generator.h"
+#include "gen/light/light.h"
 #include "gen/model/catalogue.h"
 #include "gen/render/makefile.h"
 #include "gen/render/passes.h"
@@ -21,6 +22,7 @@ static const char help[] =
     "      --frames A:B      only frames A to B-1, by their number\n"
     "      --quality NAME    draft, standard or high: over the scene's own\n"
     "      --seed N          over the scene's own\n"
+    "      --light           only say what the photographs tell of the light, whatever the scene says\n"
     "      --keys            print every key of a scene file: path, type, unit, default\n"
     "  -h, --help            this text\n"
     "  -V, --version         the version\n"
@@ -32,7 +34,7 @@ struct options {
     const char *scene, *out;
     int first, end;  /* frames by number, end excluded */
     int quality;     /* -1: the scene's */
-    bool has_seed;
+    bool has_seed, light;
     int seed;
 };
 
@@ -58,6 +60,29 @@ static const char *data_folder(void)
     return given && *given ? given : PKGDATADIR;
 }
 
+/* The light that the scene gives, to hold against what the photographs tell. */
+static bool print_own_light(const struct scene *scene, struct error *err)
+{
+    struct light light;
+    double sky[3];
+    if (!light_create(&light, scene, err)) return false;
+    light_sky_irradiance(sky, &light, vec3(0, 0, 1));
+    printf("scene: in the open the sky gives R %.3f G %.3f B %.3f\n", sky[0] / light.irradiance[0], sky[1] / light.irradiance[1],
+           sky[2] / light.irradiance[2]);
+    light_release(&light);
+    return true;
+}
+
+/* Have the light told by the photographs, in place of what the scene says. */
+static bool ask_for_light(struct scene *scene, struct error *err)
+{
+    if (scene->sky == SKY_AUTO) return true;
+    if (!print_own_light(scene, err)) return false;
+    scene->sky = SKY_AUTO;
+    if (scene->sun != SUN_GIVEN) scene->sun = scene->has_place && scene->has_time ? SUN_BY_TIME : SUN_NONE;
+    return true;
+}
+
 static bool generate(const struct options *o, struct error *err)
 {
     struct scene *scene = NULL;
@@ -73,13 +98,17 @@ static bool generate(const struct options *o, struct error *err)
     if (!catalogue_folders_init(&folders, PKGDATADIR, err) || !scene_read(&scene, o->scene, folders.list, err)) goto out;
     if (o->quality >= 0) scene->quality = (enum quality)o->quality;
     if (o->has_seed) scene->seed = o->seed;
-    if (!generator_create(&generator, scene, o->out, rules, err)) goto out;
+    if ((o->light && !ask_for_light(scene, err)) || !generator_create(&generator, scene, o->out, rules, err)) goto out;
     for (size_t i = 0; i < generator_warning_count(generator); i++)
         fprintf(stderr, "staffage-gen: warning: %s\n", generator_warning(generator, i));
 
     char *light = generator_light_text(generator);
     if (light) fputs(light, stdout);
     free(light);
+    if (o->light) {
+        ok = true;
+        goto out;
+    }
 
     size_t count = generator_frame_count(generator);
     results = calloc(count + 1, sizeof *results);
@@ -148,11 +177,12 @@ out:
 
 int main(int argc, char **argv)
 {
-    enum { FRAMES = 256, QUALITY, SEED, KEYS };
+    enum { FRAMES = 256, QUALITY, SEED, KEYS, LIGHT };
     static const struct option longs[] = {
         { "output", required_argument, NULL, 'o' },  { "frames", required_argument, NULL, FRAMES },
         { "quality", required_argument, NULL, QUALITY }, { "seed", required_argument, NULL, SEED },
-        { "keys", no_argument, NULL, KEYS },         { "help", no_argument, NULL, 'h' },
+        { "keys", no_argument, NULL, KEYS },         { "light", no_argument, NULL, LIGHT },
+        { "help", no_argument, NULL, 'h' },
         { "version", no_argument, NULL, 'V' },       { 0 },
     };
     static const char *const qualities[] = { "draft", "standard", "high" };
@@ -173,6 +203,7 @@ int main(int argc, char **argv)
             if (!parse_int(&o.seed, optarg, &end) || *end) return usage("--seed takes a whole number from 0", optarg);
             o.has_seed = true;
             break;
+        case LIGHT: o.light = true; break;
         case KEYS: {
             char *keys = scene_schema_text();
             if (!keys) return 3;

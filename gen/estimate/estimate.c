@@ -216,7 +216,8 @@ bool light_estimate(struct light_estimate *estimate, const struct stage *stage, 
         open_up(&e);
         e.turbidity = turbidity_of(&e, s, sun);
     }
-    if (ok && e.clear && g.by_place && !g.mark_count) ok = check_sun(&e, &g, stage, sun, err);
+    e.mesh = g.by_place && !g.mark_count;
+    if (ok && e.clear && e.mesh) ok = check_sun(&e, &g, stage, sun, err);
     gathered_release(&g);
     if (ok) *estimate = e;
     return ok;

@@ -25,7 +25,8 @@ struct light_estimate {
     struct shade shade;        /* places 0 where no shadow was found */
     double sky_share[3], sky_share_sigma[3]; /* clear: of the light on level ground in the open, the sky's */
     double turbidity;          /* clear: whose sky is to the sun as was found */
-    bool has_check;            /* over a mesh */
+    bool mesh;                 /* casts shadows, so that the sun can be checked by them */
+    bool has_check;            /* it casts enough of those that were found */
     struct sun_check check;
     size_t photographs;
     double lit[3], lit_sigma[3]; /* linear values of the lit ground in the first of them, haze taken away; 0: none found */

@@ -51,7 +51,9 @@ static char *clouds_text(const struct light_estimate *e)
 static char *check_text(const struct light_estimate *e)
 {
     const struct sun_check *c = &e->check;
-    if (!e->clear || !e->has_check) return string_format("%s", "");
+    if (!e->clear || !e->mesh) return string_format("%s", "");
+    if (!e->has_check)
+        return string_format("%s", "light: the mesh casts too few of these shadows to tell whether the sun stands where they put it\n");
     return string_format("light: by the shadows the sun stands %.1f +- %.1f deg %s and %.1f +- %.1f deg %s%s: %.0f %% of %zu edges agree with the "
                          "mesh's shadows, there %.0f %%\n", fabs(c->azimuth_off_deg), c->azimuth_sigma_deg,
                          c->azimuth_off_deg < 0 ? "anticlockwise" : "clockwise", fabs(c->elevation_off_deg), c->elevation_sigma_deg,
