@@ -15,8 +15,8 @@ static struct mat3 then(struct mat3 outer, struct mat3 inner) { return mat3_mult
 
 /* Feet of a walk, of a slow one and of a run. Src: Perry, Burnfield 2010, Gait analysis (phases, angles);
  * Novacheck 1998, The biomechanics of running */
-static const double walk_pitch[][2] = { { 0, 20 }, { 0.09, 0 }, { 0.30, 0 }, { 0.42, -9 }, { 0.52, -30 }, { 0.62, -58 }, { 0.68, -60 }, { 0.85, 2 }, { 0.94, 20 }, { 1, 20 } };
-static const double walk_bend[][2] = { { 0, 4 }, { 0.09, 0 }, { 0.30, 0 }, { 0.42, 9 }, { 0.52, 28 }, { 0.62, 30 }, { 0.72, 6 }, { 0.9, 6 }, { 1, 4 } };
+static const double walk_pitch[][2] = { { 0, 20 }, { 0.09, 0 }, { 0.30, 0 }, { 0.42, -6 }, { 0.52, -22 }, { 0.62, -52 }, { 0.68, -57 }, { 0.85, 2 }, { 0.94, 20 }, { 1, 20 } };
+static const double walk_bend[][2] = { { 0, 4 }, { 0.09, 0 }, { 0.30, 0 }, { 0.42, 6 }, { 0.52, 20 }, { 0.62, 28 }, { 0.72, 6 }, { 0.9, 6 }, { 1, 4 } };
 static const double walk_clear[][2] = { { 0, 0 }, { 0.25, 0.038 }, { 0.55, 0.02 }, { 0.8, 0.024 }, { 1, 0 } };
 static const double slow_pitch[][2] = { { 0, 12 }, { 0.08, 0 }, { 0.36, 0 }, { 0.48, -7 }, { 0.58, -26 }, { 0.66, -45 }, { 0.72, -46 }, { 0.87, 0 }, { 0.95, 12 }, { 1, 12 } };
 static const double slow_bend[][2] = { { 0, 3 }, { 0.08, 0 }, { 0.36, 0 }, { 0.48, 7 }, { 0.58, 24 }, { 0.66, 26 }, { 0.76, 5 }, { 0.9, 5 }, { 1, 3 } };
@@ -206,7 +206,7 @@ static void make_gait(struct clip *clip, const struct gait *g, const struct pers
             double part = p + 0.5 * side;
             struct step step = step_at(steps[side], part);
             bool stands = part - floor(part) <= g->roll.stands;
-            height = fmin(height, reach(&pose, b, ankle_of(b, g, &step, side), side, stands ? (g->lean > 5 ? 1.0 : 0.995) : 0.9995) - RISE(p));
+            height = fmin(height, reach(&pose, b, ankle_of(b, g, &step, side), side, stands ? (g->lean > 5 ? 1.0 : 0.998) : 0.9995) - RISE(p));
         }
     }
     for (int key = 0; key <= clip->keys; key++) {

@@ -2,7 +2,10 @@
 #include "gen/moment.h"
 
 #include "tests/gen/model_files.h"
+#include "tests/gen/walker_files.h"
 #include "tests/tap.h"
+
+#define WALKER_FILE "models/man-jacket-far.glb"
 
 static const char scene_text[] =
     "staffage: 1\n"
@@ -156,22 +159,11 @@ static void check_gait(const struct stage *stage)
 }
 
 /* The animation's own figures are part of what a frame depends on. */
-static void check_hash(const struct stage *stage, const struct scene *scene, const struct material_rules *rules, const char *walker)
+static void check_hash(const struct stage *stage, const struct scene *scene, const struct material_rules *rules)
 {
     struct error err = ERROR_NONE;
     struct stage *other = NULL;
-    char *data;
-    size_t size;
-    if (!OK(file_read(&data, &size, walker, &err), "the walker's file")) return;
-    uint32_t json_size;
-    memcpy(&json_size, data + 12, 4);
-    /* The last key of the last channel: 16 bytes of a rotation, or 12 of a way, at the buffer's end. */
-    float value;
-    memcpy(&value, data + size - 4, 4);
-    value += 0.01f;
-    memcpy(data + size - 4, &value, 4);
-    put("man.glb", data, size);
-    free(data);
+    put_going("man.glb", WALKER_FILE, 0, 0.01);
     OK(stage_create(&other, scene, rules, &err) && other->hash != stage->hash, "an animation that changes is noticed %s", err.text);
     stage_destroy(other);
 }
@@ -182,11 +174,11 @@ int main(void)
     struct scene *scene = NULL;
     struct material_rules *rules = NULL;
     struct stage *stage = NULL;
-    char path[600], walker[600], *rules_path = string_format("%s/templates/materials.rules", getenv("top_srcdir") ? getenv("top_srcdir") : ".");
+    char path[600], *rules_path = string_format("%s/templates/materials.rules", getenv("top_srcdir") ? getenv("top_srcdir") : ".");
     if (!OK(mkdtemp(folder) != NULL, "a folder")) return tap_done();
     put_image("a.png", 90, 90, 90);
     copied("box.obj", "top_srcdir", "tests/input/box.obj");
-    snprintf(walker, sizeof walker, "%s", copied("man.glb", "top_builddir", "models/walker-man.glb"));
+    copied("man.glb", "top_builddir", WALKER_FILE);
     snprintf(path, sizeof path, "%s", put_text("scene.yaml", scene_text));
     bool ok = scene_read(&scene, path, NULL, &err) && material_rules_read(&rules, rules_path, &err) && stage_create(&stage, scene, rules, &err);
     if (OK(ok, "a stage %s:%d %s", err.file, err.line, err.text)) {
@@ -194,7 +186,7 @@ int main(void)
         check_velocities(stage);
         check_ids(stage);
         check_gait(stage);
-        check_hash(stage, scene, rules, walker);
+        check_hash(stage, scene, rules);
     }
     stage_destroy(stage);
     material_rules_destroy(rules);
