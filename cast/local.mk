@@ -14,30 +14,25 @@ staffage_cast_SOURCES = \
   %D%/field.c %D%/field.h \
   %D%/figure.c %D%/figure.h \
   %D%/fleet.c %D%/fleet.h \
-  %D%/glb.c %D%/glb.h \
   %D%/head.c \
   %D%/hull.h \
   %D%/listing.c %D%/listing.h \
   %D%/main.c \
-  %D%/mesh.c %D%/mesh.h \
   %D%/motion.c %D%/motion.h \
-  %D%/obj.c \
   %D%/outline.c %D%/outline.h \
   %D%/part.c %D%/part.h \
   %D%/people.c \
-  %D%/person.c %D%/person.h \
+  %D%/person.h \
   %D%/rider.c %D%/rider.h \
   %D%/shell.c %D%/shell.h \
   %D%/shell_cut.c \
   %D%/shell_region.c \
-  %D%/skeleton.c %D%/skeleton.h \
   %D%/skin_glb.c %D%/skin_glb.h \
   %D%/surface_net.c \
   %D%/texture.c %D%/texture.h \
   %D%/trucks.c \
   %D%/vehicle.h \
   %D%/vehicle_glb.c \
-  %D%/walk.c %D%/walk.h \
   %D%/wheel.c %D%/wheel.h
 staffage_cast_LDADD = lib/libstaffage.a $(JANSSON_LIBS) $(ZLIB_LIBS) -lm
 EXTRA_DIST += %D%/README.md

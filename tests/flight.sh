@@ -7,7 +7,7 @@ for helper in compare-changes compare-frame make-place project-box same-pixels; 
     cp "$top_builddir/tests/run/$helper" .
 done
 cp "$top_srcdir/tests/input/box.obj" .
-for model in sedan-middle.glb walker-man.glb walker-woman.glb; do
+for model in sedan-middle.glb man-jacket-middle.glb woman-skirt-middle.glb; do
     cp "$(ls "$top_builddir/models/$model" "$top_srcdir/models/$model" 2>/dev/null | head -n 1)" .
 done
 ./make-place . || exit 1
@@ -31,8 +31,8 @@ cameras:
   drone: {model: OPENCV, size_px: [320, 180], params: [$lens]}
 models:
   sedan: {file: sedan-middle.glb, class: car}
-  man: {file: walker-man.glb, class: person}
-  woman: {file: walker-woman.glb, class: person}
+  man: {file: man-jacket-middle.glb, class: person}
+  woman: {file: woman-skirt-middle.glb, class: person}
   box: {file: box.obj, unit_m: 1, up: z, front: x, class: truck}
 YAML
 }
