@@ -142,7 +142,7 @@ bool shade_find(struct shade *shade, struct shade_sample *samples, size_t n, dou
     double *scratch = malloc((2 * n + 2) * sizeof *scratch), depth = 0, blue = 0;
     bool *member = calloc(n + 1, sizeof *member);
     bool ok = scratch && member;
-    if (ok) qsort(samples, n, sizeof *samples, by_place);
+    if (ok && n) qsort(samples, n, sizeof *samples, by_place);
     if (ok && deepest(&depth, &blue, samples, n, bluer, locus)) {
         for (int round = 0; round < ROUNDS; round++) {
             size_t count = take_members(member, samples, n, bluer, depth, blue), k = 0;
