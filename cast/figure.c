@@ -114,8 +114,10 @@ static struct skin_piece make_piece(enum piece piece, const struct hull *hull, c
         uint32_t at = hull->triangle[c / 3][c % 3];
         const struct garment *g = &wardrobe->garment[hull->piece[at]];
         if (g->piece != piece) continue;
-        int beyond = is_beyond(face_of(hull, c / 3), normals[at].smooth);
-        struct vec3 normal = beyond ? vec3_unit(normals[at].beyond) : normals[at].smooth;
+        struct vec3 face = face_of(hull, c / 3), other = normals[at].beyond;
+        int beyond = is_beyond(face, normals[at].smooth);
+        if (vec3_norm(other) < 0.1 * vec3_norm(face)) other = face; /* those beyond look away from each other */
+        struct vec3 normal = beyond ? vec3_unit(other) : normals[at].smooth;
         if (number[at][beyond] < 0) number[at][beyond] = add_vertex(&made, hull->point[at], normal, piece, g, person, body);
         made.index[made.indices++] = (uint16_t)number[at][beyond];
     }

@@ -5,16 +5,16 @@
 static const struct proving_entity fixed_cast[] = {
     { "red car", "sedan", "car", { 0.5, -1.75, 0 }, 90, "#8a1c1c" },
     { "white car", "sedan", "car", { 12, 1.75, 0 }, 270, "#dcdcd8" },
-    { "man", "man-walking", "person", { -3.2, 1.6, 0 }, 195, NULL },
-    { "woman", "woman-standing", "person", { 6.2, -3.0, 0 }, 240, NULL },
+    { "man", "man-jacket", "person", { -3.2, 1.6, 0 }, 195, NULL },
+    { "woman", "woman-coat", "person", { 6.2, -3.0, 0 }, 240, NULL },
     { NULL, NULL, NULL, { 0, 0, 0 }, 0, NULL },
 };
 static const struct proving_entity flight_cast[] = {
     { "blue car", "sedan", "car", { -6, 1.75, 0 }, 270, "#1d3560" },
     { "grey car", "sedan", "car", { 3.5, -1.75, 0 }, 90, "#8d9296" },
-    { "man", "man-walking", "person", { 8, 0.4, 0 }, 185, NULL },
-    { "woman", "woman-walking", "person", { 1.5, -7, 0.12 }, 95, NULL },
-    { "waiting man", "man-standing", "person", { -1, 4.6, 0.12 }, 150, NULL },
+    { "man", "man-jacket", "person", { 8, 0.4, 0 }, 185, NULL },
+    { "woman", "woman-skirt", "person", { 1.5, -7, 0.12 }, 95, NULL },
+    { "waiting man", "man-sweater", "person", { -1, 4.6, 0.12 }, 150, NULL },
     { NULL, NULL, NULL, { 0, 0, 0 }, 0, NULL },
 };
 

@@ -85,9 +85,7 @@ static void put_cast(FILE *f, const struct proving_case *c, const char *models)
         const struct proving_entity *e = &c->entities[i];
         bool seen = false;
         for (size_t k = 0; k < i; k++) seen |= !strcmp(e->model, c->entities[k].model);
-        bool person = !strcmp(e->class_, "person");
-        if (!seen) fprintf(f, "  %s: {file: \"%s/%s.%s\", class: %s%s}\n", e->model, models, e->model, person ? "obj" : "glb", e->class_,
-                           person ? ", unit_m: 1, up: +z, front: +x" : "");
+        if (!seen) fprintf(f, "  %s: {file: \"%s/%s.glb\", class: %s}\n", e->model, models, e->model, e->class_);
     }
     fputs("entities:\n", f);
     for (size_t i = 0; i < proving_entity_count(c); i++) {

@@ -70,7 +70,7 @@ static void check_surface(const struct model *m, const char *name)
             struct vec3 a = point(p, at[0]), b = point(p, at[1]), c = point(p, at[2]), face = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
             volume += vec3_dot(a, vec3_cross(b, c)) / 6;
             thin += vec3_norm(face) < 1e-9;
-            for (int k = 0; k < 3; k++) inward += vec3_dot(face, point(n, at[k])) < 0, corners++;
+            for (int k = 0; k < 3; k++) inward += !(vec3_dot(face, point(n, at[k])) >= 0), corners++;
         }
     }
     OK(open_sides(m) == 0, "%s is closed (%zu open sides)", name, open_sides(m));
