@@ -25,7 +25,7 @@ static const struct proving_shot flight_shots[] = {
     { { 14, 13, 18 }, { 1, -1.5, 0 }, { 0, 0, 1 } },
 };
 
-#define FIXED .shots = fixed_shot, .shot_count = 1, .entities = fixed_cast, .patch_px = { 420, 330, 500, 370 }, \
+#define FIXED .shots = fixed_shot, .shot_count = 1, .entities = fixed_cast, .patch_px = { 330, 320, 440, 370 }, \
     .camera = { CAMERA_OPENCV, 960, 540, { 800, 801, 483.5, 268.2, -0.14, 0.03, 0.0006, -0.0004 } }
 #define FLIGHT .shots = flight_shots, .shot_count = 3, .entities = flight_cast, .has_mesh = true, \
     .camera = { CAMERA_RADIAL, 960, 540, { 690, 478.2, 272.6, -0.06, 0.01 } }
