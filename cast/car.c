@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-enum { ARCH_REGION = COATS, LAMP_REGION = COATS + 1, CUT_REGION = COATS + 32, BED_REGION = COATS + 36 };
+enum { LAMP_REGION = COATS + 1, CUT_REGION = COATS + 32, BED_REGION = COATS + 36 };
 
 void car_coach(struct coach *coach, const struct car_spec *spec)
 {
@@ -20,10 +20,12 @@ static struct vec3 inward(const void *self, struct vec3 p, struct vec3 n)
     return q;
 }
 
-static struct vec3 to_inner_y(const void *self, struct vec3 p, struct vec3 n)
+/* A wheel house narrows inward a little: what of its rim runs inward gets walls, too. */
+static struct vec3 into_house(const void *self, struct vec3 p, struct vec3 n)
 {
+    const struct vec3 *middle = self;
     (void)n;
-    return vec3(p.x, *(const double *)self, p.z);
+    return vec3(middle->x + 0.97 * (p.x - middle->x), middle->y, middle->z + 0.97 * (p.z - middle->z));
 }
 
 static struct vec3 to_floor(const void *self, struct vec3 p, struct vec3 n)
@@ -31,6 +33,9 @@ static struct vec3 to_floor(const void *self, struct vec3 p, struct vec3 n)
     (void)n;
     return vec3(p.x, p.y, *(const double *)self);
 }
+
+/* Large bodies have larger cells. */
+static double coarseness(const struct coach *coach) { return fmax(coach->spec->half_width / 0.93, (coach->x[1] - coach->x[0]) / 5.2); }
 
 /* --- lines and fields --- */
 
@@ -55,7 +60,7 @@ static void draw_decal(struct shell *s, const struct coach *coach, const struct 
         shell_paint(s, &form, -half, half, PAINT_COAT, d->coat);
         return;
     }
-    if (level == NEAR) shell_refine(s, solid, &form, 0.006, 0.034);
+    if (level == NEAR) shell_refine(s, solid, &form, 0.004, 0.045 * coarseness(coach));
     shell_cut(s, solid, &form, 0);
     int region = d->trace == FILL || level == FAR ? d->coat : LAMP_REGION + index;
     shell_paint(s, &form, -10, 0, -1, region);
@@ -65,7 +70,7 @@ static void draw_glass(struct shell *s, const struct form *solid, const struct m
 {
     struct form form = mark_form(mark);
     double seal = level == NEAR ? 0.016 : 0;
-    int coat = kind == BLIND_WINDOW ? BLACK_PANEL : kind == TINTED_WINDOW || level == FAR ? DARK_WINDOW : WINDOW;
+    int coat = kind == BLIND_WINDOW ? BLACK_PANEL : level == FAR ? FAR_WINDOW : kind == TINTED_WINDOW ? DARK_WINDOW : WINDOW;
     shell_cut(s, solid, &form, 0);
     if (seal > 0) {
         shell_cut(s, solid, &form, -seal);
@@ -107,7 +112,7 @@ static void draw_doors(struct shell *s, const struct coach *coach, const struct 
         if (d->front_x == d->rear_x) continue;
         struct mark mark = mark_door(coach, spec->door_bottom, spec->door_frame, d->front_x, d->front_lean, d->rear_x, d->rear_lean, 0.05);
         struct form form = mark_form(&mark);
-        shell_refine(s, solid, &form, 0, 0.06);
+        shell_refine(s, solid, &form, 0, 0.085 * coarseness(coach));
         shell_cut(s, solid, &form, half);
         shell_cut(s, solid, &form, -half);
         shell_paint(s, &form, -half, half, PAINT_COAT, GAP);
@@ -226,9 +231,8 @@ static void add_fittings(struct shell *body, const struct coach *coach, const st
 
 static struct vec3 cell_of(const struct coach *coach, enum level level)
 {
-    double scale = fmax(1, (coach->x[1] - coach->x[0]) / 5.2);
-    struct vec3 cell = level == NEAR ? vec3(0.085, 0.075, 0.062) : level == MIDDLE ? vec3(0.20, 0.15, 0.13) : vec3(0.42, 0.30, 0.24);
-    return vec3_scale(cell, scale);
+    struct vec3 cell = level == NEAR ? vec3(0.105, 0.090, 0.074) : level == MIDDLE ? vec3(0.20, 0.15, 0.13) : vec3(0.42, 0.30, 0.24);
+    return vec3_scale(cell, coarseness(coach));
 }
 
 void car_body(struct shell *body, const struct car_spec *spec, enum level level)
@@ -268,13 +272,18 @@ void car_body(struct shell *body, const struct car_spec *spec, enum level level)
     for (int a = 0; a < 2; a++) {
         struct mark wheel = mark_wheel(&coach, a, spec->arch_inner_y, 0);
         struct form form = mark_form(&wheel);
-        if (level == NEAR) shell_refine(&s, &solid, &form, 0.01, 0.05);
+        if (level == NEAR) shell_refine(&s, &solid, &form, 0.004, 0.055);
         shell_cut(&s, &solid, &form, 0);
         shell_paint(&s, &form, -10, 0, -1, CUT_REGION + a);
     }
 
     shell_take(&glass, &s, WINDOW);
-    if (level != FAR) shell_take(&glass, &s, DARK_WINDOW);
+    shell_take(&glass, &s, DARK_WINDOW);
+    if (level != FAR) {
+        struct mark cabin = mark_cabin(&coach, spec->cabin[0], spec->cabin[1], spec->cabin[2]);
+        struct form form = mark_form(&cabin);
+        shell_line(&s, &form, 0.045, LINING);
+    }
     for (int i = 0; i < DECALS; i++) {
         const struct decal *d = &spec->decal[i];
         if (level == FAR || (d->trace != SINK && d->trace != LAMP_HOUSE)) continue;
@@ -293,15 +302,12 @@ void car_body(struct shell *body, const struct car_spec *spec, enum level level)
         for (size_t f = 0; f < s.faces_count; f++)
             if (s.faces[f].material == LAMP_REGION + i) s.faces[f].material = (uint8_t)(level == MIDDLE && d->trace == LAMP_HOUSE ? LAMP : d->coat);
     }
-    for (int a = 0; a < 2; a++)
-        shell_hollow(&s, CUT_REGION + a, GAP, GAP, to_inner_y, &spec->arch_inner_y, vec3(spec->axle_x[a], spec->arch_inner_y, coach.axle_z));
+    for (int a = 0; a < 2; a++) {
+        struct vec3 middle = vec3(spec->axle_x[a], spec->arch_inner_y, coach.axle_z);
+        shell_hollow(&s, CUT_REGION + a, WHEEL_HOUSE, WHEEL_HOUSE, into_house, &middle, middle);
+    }
     if (spec->bed[2] > 0)
         shell_hollow(&s, BED_REGION, BED, BED, to_floor, &spec->bed[3], vec3((spec->bed[0] + spec->bed[1]) / 2, 0, spec->bed[3]));
-    if (level != FAR) {
-        struct mark cabin = mark_cabin(&coach, spec->cabin[0], spec->cabin[1], spec->cabin[2]);
-        struct form form = mark_form(&cabin);
-        shell_line(&s, &form, 0.045, LINING);
-    }
     shell_append(&s, &glass, vec3(0, 0, 0), false);
     shell_mirror(&s);
     shell_append(body, &s, vec3(0, 0, 0), false);

@@ -143,7 +143,7 @@ static const struct car_spec van = {
     .door = { { 1.60, -0.02, 0.80, -0.03, 0.92 }, { 0.70, 0, -0.58, 0, 0.60 } }, .door_bottom = 0.36, .door_frame = 0.20, .handle_z = 1.12,
     .decal = { { LAMP_HOUSE, MARK_FRONT, REFLECTOR, 0.05, { { 0.56, 0.86, 0.04 }, { 0.82, 0.86, 0.05 }, { 1.12, 0.98, 0.04 }, { 1.10, 1.16, 0.05 }, { 0.80, 1.08, 0.06 }, { 0.56, 0.98, 0.03 }, END }, true },
                { FILL, MARK_REAR, REAR_LAMP, 0, { { 0.91, 0.92, 0.02 }, { 1.01, 0.92, 0.02 }, { 1.01, 1.40, 0.02 }, { 0.91, 1.40, 0.02 }, END }, true },
-               { FILL, MARK_REAR, DARK_WINDOW, 0, { { 0.12, 1.38, 0.05 }, { 0.76, 1.38, 0.05 }, { 0.74, 1.98, 0.05 }, { 0.12, 1.98, 0.05 }, END }, true },
+               { FILL, MARK_REAR, BLACK_PANEL, 0, { { 0.12, 1.38, 0.05 }, { 0.76, 1.38, 0.05 }, { 0.74, 1.98, 0.05 }, { 0.12, 1.98, 0.05 }, END }, true },
                ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.035, 0.70, 0.46, 0.96, 0.50, 0.06), ACROSS(FILL, MARK_FRONT, TRIM_COAT, 0, 0.05, 1.6, 0.60, 1.35, 0.05),
                ACROSS(FILL, MARK_REAR, TRIM_COAT, 0, 0.1, 1.05, 0.66, 1.02, 0.03), { LINE, MARK_REAR, GAP, 0.008, { { 0.0, 0.68, 0.01 }, { 0.88, 0.68, 0.05 }, { 0.86, 2.42, 0.05 }, { 0.0, 2.42, 0.01 }, END }, false },
                { FILL, MARK_SIDE, TRIM_COAT, 0, { { 1.38, 0.66, 0.03 }, { -1.18, 0.66, 0.03 }, { -1.18, 0.78, 0.03 }, { 1.38, 0.78, 0.03 }, END }, false },
@@ -172,14 +172,14 @@ static const struct car_spec pickup = {
                ACROSS(FILL, MARK_REAR, BRIGHT, 0, 0.50, 1.00, 0.70, 1.00, 0.02), { LINE, MARK_REAR, GAP, 0.008, { { -0.77, 0.74, 0.02 }, { 0.77, 0.74, 0.02 }, { 0.77, 1.6, 0.02 }, { -0.77, 1.6, 0.02 }, END }, false },
                { LINE, MARK_SIDE, GAP, 0.016, { { -1.055, 0.2, 0.01 }, { -1.055, 1.6, 0.01 }, { -4, 1.6, 0.01 }, { -4, 0.2, 0.01 }, END }, false },
                BONNET(2.83, 1.26, 0.88), BUMPER(2.46, 0.60, 2.56, 0.78) },
-    .skirt_z = 0.44, .bed = { -1.12, -2.82, 0.78, 0.92 }, .seat_x = { 0.35, -0.50 }, .seat_z = 0.85, .cabin = { 1.40, -1.03, 0.98 },
+    .skirt_z = 0.44, .bed = { -1.12, -2.82, 0.78, 0.92 }, .seat_x = { 0.35, -0.50 }, .seat_z = 0.85, .cabin = { 1.40, -1.11, 0.98 },
     .mirror = { 0.92, 1.13, 1.36 }, .mirror_half = { 0.09, 0.11, 0.13 }, .plate_z = { 0.62, 0.62 }, .wiper_x = 1.24, .wiper_z = 1.38, .fin = true };
 
 #define CAR(name, class, measures, source, color, weight) \
     static const struct vehicle_spec spec_##name = { #name, class, measures, source, make_car, &name, color, weight }
 #define SIZES(...) { __VA_ARGS__ }
 CAR(sedan, CLASS_CAR, SIZES(4.885, 2.18, 1.445, 1.84, 2.825, 1.58, 0.155, 0.672), "published dimensions of a best-selling mid-size sedan (Toyota Camry, 2018)", NULL, 4);
-CAR(taxi, CLASS_CAR, SIZES(4.885, 2.18, 1.60, 1.84, 2.825, 1.58, 0.155, 0.672), "the sedan, with a roof sign", "#e8b010", 0.3);
+CAR(taxi, CLASS_CAR, SIZES(4.885, 2.18, 1.545, 1.84, 2.825, 1.58, 0.155, 0.672), "the sedan, with a roof sign", "#e8b010", 0.3);
 CAR(hatchback, CLASS_CAR, SIZES(4.284, 2.12, 1.491, 1.789, 2.636, 1.54, 0.15, 0.632), "published dimensions of a best-selling compact hatchback (Volkswagen Golf, 2020)", NULL, 2);
 CAR(estate, CLASS_CAR, SIZES(4.77, 2.17, 1.50, 1.832, 2.791, 1.57, 0.15, 0.651), "published dimensions of a best-selling estate (Volkswagen Passat Variant, 2015)", NULL, 1);
 CAR(suv, CLASS_CAR, SIZES(4.60, 2.20, 1.685, 1.855, 2.69, 1.60, 0.20, 0.716), "published dimensions of a best-selling compact SUV (Toyota RAV4, 2019)", NULL, 5);

@@ -141,13 +141,13 @@ static void make_bicycle(struct vehicle *v, const struct vehicle_spec *spec, enu
         part_rod(s, vec3(crank.x, k * 0.065, crank.z), vec3(pedal.x, k * 0.075, pedal.z), 0.010, sides(level, 6), BRIGHT);
         part_box(s, pedal, vec3(0.045, 0.045, 0.012), 0.005, TRIM_COAT);
     }
+    add_mudguard(s, front, r, r + 0.012, -75, 30, 0.026, level, PAINT_COAT);
+    add_mudguard(s, rear, r, r + 0.012, -100, 40, 0.026, level, PAINT_COAT);
     part_rod(s, vec3(crank.x, -0.07, crank.z), vec3(crank.x, 0.07, crank.z), 0.018, n, BRIGHT);
     part_rod(s, vec3(crank.x, -0.045, crank.z), vec3(crank.x, -0.049, crank.z), 0.085, level == NEAR ? 28 : 10, STEEL);
     if (level != FAR) {
         part_rod(s, vec3(rear, -0.042, r), vec3(rear, -0.05, r), 0.04, 12, STEEL);
         for (int k = -1; k <= 1; k += 2) part_rod(s, vec3(crank.x, -0.047, crank.z + k * 0.08), vec3(rear, -0.047, r + k * 0.036), 0.004, 4, FLOOR);
-        add_mudguard(s, front, r, r + 0.012, -75, 30, 0.026, level, PAINT_COAT);
-        add_mudguard(s, rear, r, r + 0.012, -100, 40, 0.026, level, PAINT_COAT);
         const double rack_z = r + 0.40;
         for (int k = -1; k <= 1; k += 2) {
             part_rod(s, vec3(-0.30, k * 0.05, rack_z), vec3(-0.70, k * 0.055, rack_z), 0.006, 5, TRIM_COAT);

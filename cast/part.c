@@ -5,10 +5,24 @@
 
 static uint32_t add(struct shell *s, struct vec3 p) { return shell_point(s, p, vec3(0, 0, 1)); }
 
+static void add_plain_box(struct shell *s, struct vec3 at, struct vec3 h, int material)
+{
+    static const uint32_t side[6][4] = { { 0, 2, 3, 1 }, { 4, 5, 7, 6 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 }, { 0, 4, 6, 2 }, { 1, 3, 7, 5 } };
+    size_t first = s->faces_count;
+    uint32_t v = (uint32_t)s->points;
+    for (int i = 0; i < 8; i++) add(s, vec3_add(at, vec3(i & 1 ? h.x : -h.x, i & 2 ? h.y : -h.y, i & 4 ? h.z : -h.z)));
+    for (int f = 0; f < 6; f++) shell_quad(s, v + side[f][0], v + side[f][1], v + side[f][2], v + side[f][3], material);
+    shell_smooth(s, first, 30);
+}
+
 void part_box(struct shell *s, struct vec3 at, struct vec3 h, double bevel, int material)
 {
     size_t first = s->faces_count;
     double b = fmin(bevel, 0.9 * fmin(h.x, fmin(h.y, h.z)));
+    if (b < s->least_bevel_m) {
+        add_plain_box(s, at, h, material);
+        return;
+    }
     uint32_t v[2][2][2][3]; /* a corner's point on the face across each axis */
     for (int i = 0; i < 8; i++)
         for (int axis = 0; axis < 3; axis++) {

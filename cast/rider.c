@@ -33,7 +33,7 @@ static struct vec3 side(struct vec3 p, int right) { return vec3(p.x, right ? -p.
 
 static struct vec3 between(struct vec3 a, struct vec3 b, double t) { return vec3_add(vec3_scale(a, 1 - t), vec3_scale(b, t)); }
 
-static void add_flesh(struct shell *s, const struct flesh *f, enum level level, int coat)
+static void add_flesh(struct shell *s, const struct flesh *f, enum level level, double fineness, int coat)
 {
     struct vec3 low = { 1e9, 1e9, 1e9 }, high = { -1e9, -1e9, -1e9 };
     for (int i = 0; i < f->count; i++) {
@@ -43,7 +43,7 @@ static void add_flesh(struct shell *s, const struct flesh *f, enum level level, 
         high = vec3(fmax(high.x, fmax(l->a.x, l->b.x) + r), fmax(high.y, fmax(l->a.y, l->b.y) + r), fmax(high.z, fmax(l->a.z, l->b.z) + r));
     }
     if (low.y >= 0) low.y = -0.01;
-    double cell = level == NEAR ? 0.026 : level == MIDDLE ? 0.06 : 0.11;
+    double cell = level == NEAR ? 0.026 / fineness : (level == MIDDLE ? 0.048 : 0.078) / fineness;
     struct form form = { flesh_at, f };
     shell_add_solid(s, &form, low, high, vec3(cell, cell, cell), coat);
 }
@@ -72,15 +72,15 @@ void add_rider(struct shell *s, const struct rider *r, enum level level)
         limb(&shoes, vec3(r->ankle[k].x - 0.03, r->ankle[k].y, r->ankle[k].z - 0.06), r->toe[k], 0.040, 0.034);
     }
     limb(&trousers, vec3(r->hip.x - 0.02, 0.06, r->hip.z), vec3(r->hip.x - 0.02, -0.06, r->hip.z), 0.12, 0.12);
-    add_flesh(s, &jacket, level, JACKET_COAT);
-    add_flesh(s, &trousers, level, TROUSERS_COAT);
-    add_flesh(s, &shoes, level, SHOES_COAT);
-    add_flesh(s, &skin, level, SKIN_COAT);
+    add_flesh(s, &jacket, level, 1, JACKET_COAT);
+    add_flesh(s, &trousers, level, 1, TROUSERS_COAT);
+    add_flesh(s, &shoes, level, 1.4, SHOES_COAT);
+    add_flesh(s, &skin, level, 1.5, SKIN_COAT);
     struct vec3 top = vec3(r->head.x, 0, r->head.z + 0.035);
     if (r->full_helmet) {
         limb(&helmet, vec3(top.x - 0.01, 0, top.z + 0.005), vec3(top.x + 0.02, 0, top.z - 0.03), 0.137, 0.130);
         limb(&helmet, vec3(top.x + 0.08, 0, top.z - 0.085), vec3(top.x, 0, top.z - 0.09), 0.075, 0.09);
-        add_flesh(s, &helmet, level, HELMET_COAT);
+        add_flesh(s, &helmet, level, 1, HELMET_COAT);
         int n = level == NEAR ? 18 : 8;
         if (level != FAR) part_blob(s, vec3(top.x + 0.085, 0, top.z - 0.005), vec3(0.075, 0.115, 0.055), 0.7, n, BLACK_PANEL);
     } else

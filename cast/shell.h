@@ -24,6 +24,7 @@ struct shell { /* { 0 } is empty */
     bool *pinned;       /* lies on a line that was cut */
     struct face *faces;
     size_t points, faces_count, point_room, face_room;
+    double least_bevel_m; /* smaller ones of boxes are left out */
 };
 void shell_release(struct shell *shell);
 uint32_t shell_point(struct shell *shell, struct vec3 p, struct vec3 n);

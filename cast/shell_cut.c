@@ -112,6 +112,28 @@ static double root(const struct shell *s, const struct form *near, double level,
     return t;
 }
 
+/* Points that would squeeze a face flat stay where they are. */
+static void spare_faces(const struct shell *s, double *best, const struct vec3 *to)
+{
+    for (bool again = true; again;) {
+        again = false;
+        for (size_t f = 0; f < s->faces_count; f++) {
+            const uint32_t *v = s->faces[f].v;
+            struct vec3 old[3], now[3];
+            bool moves = false;
+            for (int k = 0; k < 3; k++) {
+                old[k] = s->p[v[k]], now[k] = best[v[k]] > 1e8 ? old[k] : to[v[k]];
+                moves = moves || best[v[k]] < 1e8;
+            }
+            if (!moves) continue;
+            struct vec3 a = vec3_cross(vec3_sub(old[1], old[0]), vec3_sub(old[2], old[0])), b = vec3_cross(vec3_sub(now[1], now[0]), vec3_sub(now[2], now[0]));
+            if (vec3_dot(a, b) > 0.15 * vec3_dot(a, a)) continue;
+            for (int k = 0; k < 3; k++) best[v[k]] = 1e9;
+            again = true;
+        }
+    }
+}
+
 void shell_cut(struct shell *s, const struct form *solid, const struct form *near, double level)
 {
     size_t points = s->points;
@@ -134,6 +156,7 @@ void shell_cut(struct shell *s, const struct form *solid, const struct form *nea
             best[a] = length;
             to[a] = vec3_add(vec3_scale(s->p[a], 1 - t), vec3_scale(s->p[b], t));
         }
+    spare_faces(s, best, to);
     for (size_t i = 0; i < points; i++) {
         if (best[i] > 1e8) continue;
         s->p[i] = solid ? form_project(solid, to[i]) : to[i];

@@ -143,6 +143,9 @@ static struct vec3 within(struct vec3 p, struct vec3 n, double thickness_m)
     return q;
 }
 
+/* Where a sheet from side to side has its middle: it sags, so that what of its rim runs across is more than a line. */
+static struct vec3 across(struct vec3 p) { return vec3(p.x, 0, p.z - 0.25 * p.y); }
+
 void shell_line(struct shell *s, const struct form *chosen, double thickness, int material)
 {
     struct edges edges = edges_of(s);
@@ -164,8 +167,8 @@ void shell_line(struct shell *s, const struct form *chosen, double thickness, in
                 shell_quad(s, copy_of(&outer_rim, s, b, pb, nb), copy_of(&outer_rim, s, a, pa, na), copy_of(&inner_rim, s, a, qa, na),
                            copy_of(&inner_rim, s, b, qb, nb), material);
             else
-                shell_quad(s, copy_of(&near, s, a, qa, na), copy_of(&near, s, b, qb, nb), copy_of(&middle, s, b, vec3(qb.x, 0, qb.z), nb),
-                           copy_of(&middle, s, a, vec3(qa.x, 0, qa.z), na), material);
+                shell_quad(s, copy_of(&near, s, a, qa, na), copy_of(&near, s, b, qb, nb), copy_of(&middle, s, b, across(qb), nb),
+                           copy_of(&middle, s, a, across(qa), na), material);
         }
     shell_smooth(s, faces, 50);
     for (size_t f = 0; f < faces; f++) {

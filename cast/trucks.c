@@ -143,11 +143,11 @@ static void make_ambulance(struct vehicle *v, const struct vehicle_spec *spec, e
         boxes(s, front - 0.25 - 1.75 * k, front - 0.60 - 1.75 * k, half - 0.004, half + 0.03, 2.50, 2.64, 0.02, k == 1 ? LAMP : RED_LAMP);
     add_rear_lamps(s, rear - 0.005, 1.02, 1.10, 0.10, 0.16);
     for (int side = -1; side <= 1; side += 2) {
-        part_box(s, vec3(rear - 0.006, side * 0.40, 2.0), vec3(0.008, 0.27, 0.26), 0.004, DARK_WINDOW);
+        part_box(s, vec3(rear - 0.006, side * 0.40, 2.0), vec3(0.008, 0.27, 0.26), 0.004, BLACK_PANEL);
         if (level != FAR) part_box(s, vec3(rear - 0.01, side * 1.0, 2.57), vec3(0.025, 0.12, 0.06), 0.015, RED_LAMP);
     }
     part_box(s, vec3(front + 0.01, 0, 2.56), vec3(0.02, 0.5, 0.06), 0.012, RED_LAMP);
-    add_side_panel(s, 0.20, -0.45, half - 0.002, 1.80, 2.25, DARK_WINDOW);
+    add_side_panel(s, 0.20, -0.45, half - 0.002, 1.80, 2.25, BLACK_PANEL);
     if (level == NEAR) {
         boxes(s, 0.42, 0.408, half, half + 0.004, 0.72, 2.42, 0.001, GAP);      /* doors */
         boxes(s, -0.62, -0.632, half, half + 0.004, 0.72, 2.42, 0.001, GAP);
@@ -227,7 +227,7 @@ static void make_fire_truck(struct vehicle *v, const struct vehicle_spec *spec, 
     }
     add_lamp_bar(s, 4.05, 2.86, 0.95, level);
     for (int k = 0; k < 2 && level != FAR; k++) boxes(s, k ? 0.7 : rear + 0.35, k ? 0.45 : rear + 0.10, half - 0.22, half - 0.04, top + 0.25, top + 0.38, 0.03, RED_LAMP);
-    if (level != FAR) add_ladder(s, -(half - 0.10), top + 0.20, 0.7, rear + 0.1, level);
+    add_ladder(s, -(half - 0.10), top + 0.20, 0.7, rear + 0.1, level);
     add_rear_lamps(s, rear - 0.01, 1.02, 1.02, 0.09, 0.22);
     box(s, rear - 0.004, rear - 0.012, 0.80, 0.75, 1.30, 0.004, YELLOW_SIGN);
     box(s, rear - 0.004, rear - 0.012, 0.62, 1.45, 2.36, 0.004, SILVER_PANEL);
@@ -336,7 +336,7 @@ static void make_bus(struct vehicle *v, const struct vehicle_spec *spec, enum le
         double y = -coach_half_width(&coach, k ? middle : middle + 0.3, 1.2);
         part_box(s, vec3(middle, y, 1.42), vec3(half, 0.018, 1.0), 0.008, BLACK_PANEL);
         for (int leaf = -1; leaf <= 1; leaf += 2)
-            part_box(s, vec3(middle + leaf * half / 2, y - 0.016, 1.42), vec3(half / 2 - 0.06, 0.008, 0.92), 0.003, DARK_WINDOW);
+            part_box(s, vec3(middle + leaf * half / 2, y - 0.016, 1.42), vec3(half / 2 - 0.06, 0.008, 0.92), 0.003, BLACK_PANEL);
     }
     for (int row = 0; row < 11 && level == NEAR; row++)           /* seats */
         for (int side = -1; side <= 1; side += 2) {

@@ -231,6 +231,7 @@ bool write_vehicle(size_t triangles[LEVELS], const struct vehicle_spec *spec, co
     double middle_x = 0;
     for (int level = 0; good && level < LEVELS; level++) {
         struct vehicle vehicle = { 0 };
+        vehicle.body.least_bevel_m = level == NEAR ? 0.0008 : level == MIDDLE ? 0.025 : 1;
         spec->make(&vehicle, spec, (enum level)level);
         triangles[level] = 0;
         if (level == NEAR) middle_x = middle_of(&vehicle);

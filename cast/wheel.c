@@ -65,6 +65,10 @@ static void add_rim(struct shell *s, const struct wheel_spec *w, double middle_y
         break;
     case TRUCK_RIM:
     case TWIN_RIM: {
+        if (level == FAR) {
+            add_disc(s, r, w->rim == TRUCK_RIM ? y + 0.55 * h : y - 0.5 * h, 0.03, 0.02, n, w->coat);
+            break;
+        }
         double hub = w->rim == TRUCK_RIM ? y + 0.75 * h : y - 0.35 * h, face = w->rim == TRUCK_RIM ? y + 0.55 * h : y - 0.55 * h;
         const struct ring dish[] = { { 0, hub + 0.06, w->coat }, { 0.26 * r, hub + 0.055, w->coat }, { 0.32 * r, hub, w->coat }, { 0.60 * r, face, w->coat },
                                      { 0.66 * r, face - 0.015, w->coat }, { 0.9 * r, face - 0.05, w->coat }, { r, face - 0.05, w->coat },
@@ -95,7 +99,7 @@ static void add_rim(struct shell *s, const struct wheel_spec *w, double middle_y
 
 void wheel_make(struct shell *s, const struct wheel_spec *w, enum level level)
 {
-    int n = level == NEAR ? 36 : level == MIDDLE ? 16 : 9;
+    int n = level == NEAR ? 32 : level == MIDDLE ? 16 : 10;
     bool twin = w->rim == TWIN_RIM;
     double apart = twin ? 1.12 * w->width_m : 0; /* the inner one's middle behind the outer one's */
     add_tyre(s, w, 0, n, level);

@@ -195,6 +195,10 @@ check_PROGRAMS += tests/cast/people.test
 tests_cast_people_test_SOURCES = %D%/cast/people.c %D%/tap.h
 nodist_EXTRA_tests_cast_people_test_SOURCES = dummy.cxx
 tests_cast_people_test_LDADD = $(GEN_LIBS)
+check_PROGRAMS += tests/cast/vehicles.test
+tests_cast_vehicles_test_SOURCES = %D%/cast/vehicles.c %D%/tap.h
+nodist_EXTRA_tests_cast_vehicles_test_SOURCES = dummy.cxx
+tests_cast_vehicles_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/catalogue.test
 tests_gen_catalogue_test_SOURCES = %D%/gen/catalogue.c %D%/gen/model_files.h %D%/tap.h
