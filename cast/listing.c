@@ -41,9 +41,6 @@ bool listing_add(struct listing *listing, const struct listed *m, struct error *
     put_number(entry, "track_m", m->track_m);
     put_number(entry, "clearance_m", m->clearance_m);
     put_number(entry, "wheel_diameter_m", m->wheel_diameter_m);
-    put_number(entry, "unit_m", m->unit_m);
-    put_text(entry, "up", m->up);
-    put_text(entry, "front", m->front);
     for (int i = 0; i < 3 && m->triangles[i]; i++) json_array_append_new(triangles, json_integer((json_int_t)m->triangles[i]));
     put(entry, "triangles", triangles, json_array_size(triangles) > 0);
     for (size_t i = 0; m->animations && m->animations[i]; i++) json_array_append_new(animations, json_string(m->animations[i]));

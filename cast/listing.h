@@ -21,8 +21,6 @@ struct listed {
     const struct paint_share *colors;                /* (color_count) */
     size_t color_count;
     const char *source;                              /* where the proportions come from */
-    double unit_m;                                   /* the next three where the format does not state them */
-    const char *up, *front;
 };
 
 /* { 0 } is empty. */
