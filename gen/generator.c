@@ -92,9 +92,11 @@ static uint64_t hash_settings(uint64_t hash, const struct generator *g)
     hash = hash_bytes(hash, &scene->seed, sizeof scene->seed);
     hash = hash_bytes(hash, g->sky_map, strlen(g->sky_map)); /* named after what is in it */
     hash = hash_bytes(hash, g->light.sun_color, sizeof g->light.sun_color);
+    hash = hash_bytes(hash, &g->light.sun_direction, sizeof g->light.sun_direction);
     hash = hash_bytes(hash, &settings.sky_directions, sizeof settings.sky_directions);
     hash = hash_bytes(hash, &settings.fine_px, sizeof settings.fine_px);
     hash = hash_bytes(hash, &settings.radiosity_count, sizeof settings.radiosity_count);
+    hash = hash_bytes(hash, &settings.radiosity_error, sizeof settings.radiosity_error);
     hash = hash_bytes(hash, settings.object_antialias, strlen(settings.object_antialias));
     return hash_bytes(hash, settings.receiver_antialias, strlen(settings.receiver_antialias));
 }
