@@ -73,7 +73,7 @@ nodist_EXTRA_tests_gen_ribbon_test_SOURCES = dummy.cxx
 tests_gen_ribbon_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/place_sdl.test
-tests_gen_place_sdl_test_SOURCES = %D%/gen/place_sdl.c %D%/gen/shade.h %D%/gen/place.h %D%/gen/solid.h %D%/tap.h
+tests_gen_place_sdl_test_SOURCES = %D%/gen/place_sdl.c %D%/gen/place.h %D%/gen/povray.h %D%/gen/shade.h %D%/gen/solid.h %D%/tap.h
 nodist_EXTRA_tests_gen_place_sdl_test_SOURCES = dummy.cxx
 tests_gen_place_sdl_test_LDADD = $(GEN_LIBS)
 
@@ -165,6 +165,11 @@ check_PROGRAMS += tests/gen/measured_sky.test
 tests_gen_measured_sky_test_SOURCES = %D%/gen/measured_sky.c %D%/tap.h
 nodist_EXTRA_tests_gen_measured_sky_test_SOURCES = dummy.cxx
 tests_gen_measured_sky_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/wet_ground.test
+tests_gen_wet_ground_test_SOURCES = %D%/gen/wet_ground.c %D%/gen/povray.h %D%/gen/shade.h %D%/gen/solid.h %D%/tap.h
+nodist_EXTRA_tests_gen_wet_ground_test_SOURCES = dummy.cxx
+tests_gen_wet_ground_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/sky_povray.test
 tests_gen_sky_povray_test_SOURCES = %D%/gen/sky_povray.c %D%/gen/povray.h %D%/tap.h

@@ -7,12 +7,11 @@
 #include "gen/world/shading.h"
 #include "gen/world/surroundings.h"
 #include "lib/file.h"
-#include "tests/gen/shade.h"
 #include "tests/gen/place.h"
+#include "tests/gen/povray.h"
+#include "tests/gen/shade.h"
 #include "tests/gen/solid.h"
 #include "tests/tap.h"
-
-#include <sys/wait.h>
 
 enum { WIDTH = 160, HEIGHT = 120 };
 enum { OBJECT, PLANE, SHADOW };
@@ -21,28 +20,6 @@ static char out[] = "place-sdl.XXXXXX";
 /* Straight down from 40 m: 5 px a metre on the ground. */
 static const struct camera camera = { .model = CAMERA_PINHOLE, .width_px = WIDTH, .height_px = HEIGHT, .params = { 200, 200, 80, 60 } };
 static const struct pose above = { { { { 1, 0, 0 }, { 0, -1, 0 }, { 0, 0, -1 } } }, { 3, 0, 40 } };
-
-static bool povray(const char *name, const char *antialias)
-{
-    char *templates = string_format("+L%s/templates", getenv("top_srcdir")), size[2][16];
-    char *in = string_format("+I%s.pov", name), *to = string_format("+O%s.exr", name);
-    snprintf(size[0], sizeof size[0], "+W%d", WIDTH);
-    snprintf(size[1], sizeof size[1], "+H%d", HEIGHT);
-    pid_t child = fork();
-    if (child == 0) {
-        if (chdir(out) != 0) _exit(126);
-        freopen("/dev/null", "w", stdout);
-        freopen("povray.log", "w", stderr);
-        execlp("povray", "povray", in, to, size[0], size[1], templates, "+L.", "+FE", "-D", "+WT1", "+UA", antialias, (char *)NULL);
-        _exit(127);
-    }
-    int status = 1;
-    waitpid(child, &status, 0);
-    free(templates);
-    free(in);
-    free(to);
-    return status == 0;
-}
 
 /* The passes of a box at (x, 0), without anti-aliasing. */
 static bool render(struct image pass[3], struct scene *scene, const struct light *light, const char *sky_map,
@@ -59,8 +36,9 @@ static bool render(struct image pass[3], struct scene *scene, const struct light
     const struct model_include include = model_include(0, entity);
     struct passes p = { .scene = scene, .sky_map = sky_map, .light = light, .world_from_camera = above, .entities = entity,
                         .includes = &include, .entity_count = 1, .ground = { { 0, 0, 1 }, -0.5 }, .receivers = &ground,
-                        .place_include = "place.inc", .shades_include = "shades.inc" };
-    char *file = string_format("%s/place.inc", out), *shades_path = string_format("%s/shades.inc", out);
+                        .place_include = "frames/place.inc", .shades_include = "frames/shades.inc" };
+    char *folder = string_format("%s/frames", out), *file = string_format("%s/place.inc", folder);
+    char *shades_path = string_format("%s/shades.inc", folder);
     bool ok = receiver_create(&receiver, entity, &flat, light, x < 3, &err) &&
               surroundings_create(&around, &receiver, entity, 1, light, 3, &err) &&
               static_mesh_cut(mesh, &receivers, around.receivers, around.n, &err) &&
@@ -69,13 +47,14 @@ static bool render(struct image pass[3], struct scene *scene, const struct light
               place_include_write(file, &receivers, &rest, &err) && shades_include_write(shades_path, &shades, &err) &&
               view_cover(&p.view, &camera, (struct rect){ 0, 0, WIDTH, HEIGHT }, &err) &&
               shaded_ground_of_cut(&ground, &receivers, &err) && shade_ground(&ground, &p, &receiver, &near, &err) &&
-              model_include_write(&include, NULL, out, entity, &err) && passes_write(out, &p, &err);
+              model_include_write(&include, NULL, out, entity, &err) && passes_write(folder, &p, &err);
     for (int i = 0; ok && i < 3; i++) {
-        char *path = string_format("%s/%s.exr", out, names[i]);
-        ok = povray(names[i], "-A") && image_read(&pass[i], path, &err);
+        char *path = string_format("%s/%s.exr", folder, names[i]);
+        ok = povray(out, names[i], WIDTH, HEIGHT, "-A") && image_read(&pass[i], path, &err);
         free(path);
     }
     if (!ok) printf("# %s %s; %s/povray.log\n", err.file, err.text, out);
+    free(folder);
     free(file);
     free(shades_path);
     shaded_ground_release(&ground);
@@ -166,11 +145,11 @@ int main(void)
         OK(dark < bright * (1 - sun_share) * 1.15, "in the wall's shade its top loses the sun (%.3f to %.3f)", bright, dark);
         OK(dark > 0.02 * bright, "and keeps some of the sky");
         scene.fill = 0.2;
-        if (OK(render(filled, &scene, &light, sky_map, mesh, &entity, 1.4), "with a fill")) {
-            double lift = (double)at(&filled[OBJECT], 1.4, 0, 1)[1] - dark, want = 0.2 * 0.5 * light.irradiance[1];
-            NEAR(lift, want, 0.4 * want, "it is lifted by about the fill times its albedo");
-            OK(!memcmp(filled[PLANE].data, shade[PLANE].data, image_size(&shade[PLANE])) &&
-               !memcmp(filled[SHADOW].data, shade[SHADOW].data, image_size(&shade[SHADOW])), "the ground is not");
+        if (OK(render(filled, &scene, &light, sky_map, mesh, &entity, 7), "with a fill")) {
+            double lift = (double)at(&filled[OBJECT], 7, 0, 1)[1] - bright, want = 0.2 * 0.5 * light.irradiance[1];
+            NEAR(lift, want, 0.01 * want, "far from the wall its top is lifted by the fill times its albedo");
+            OK(!memcmp(filled[PLANE].data, sun[PLANE].data, image_size(&sun[PLANE])) &&
+               !memcmp(filled[SHADOW].data, sun[SHADOW].data, image_size(&sun[SHADOW])), "the ground is not");
         }
     }
     release(sun);
