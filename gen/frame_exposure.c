@@ -103,7 +103,7 @@ static bool fit_to_ground(struct frame *f, struct error *err)
     bool ok = tones_of(&tones, &f->picture, err) &&
               ground_view_of(&view, f->stage, &tones, f->camera, f->shot->world_from_camera, err) &&
               lit_ground_find(&lit, &sample_px, &n, f->stage, &tones, &view, light->has_sun ? &light->sun_direction : NULL, f->camera,
-                              f->shot->world_from_camera, err);
+                              f->shot, err);
     tones_release(&tones);
     ground_view_release(&view);
     if (!ok) return false;

@@ -29,7 +29,7 @@ bool look_at(struct looked_at *l, const struct stage *stage, const struct estima
     image_release(&image);
     if (!ok || !ground_view_of(&l->view, stage, &l->tones, &l->camera, l->shot->world_from_camera, err)) return false;
     if (s->has_mist) ground_view_clear(&l->tones, &l->view, s->visibility_m, s->haze);
-    if (!lit_ground_find(&l->lit[0], NULL, NULL, stage, &l->tones, &l->view, sun, &l->camera, l->shot->world_from_camera, err)) return false;
+    if (!lit_ground_find(&l->lit[0], NULL, NULL, stage, &l->tones, &l->view, sun, &l->camera, l->shot, err)) return false;
     l->surfaces = lit_surfaces_find(l->lit, SHADE_SURFACES, &l->lit[0], stage, &l->tones, &l->view, sun);
     return l->surfaces || out_of_memory(err);
 }

@@ -1,5 +1,7 @@
 #include "gen/estimate/ground_view.h"
 
+#include "lib/air.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -110,7 +112,7 @@ void ground_view_clear(struct tones *tones, const struct ground_view *view, doub
 {
     for (int y = 0; y < tones->height_px; y++)
         for (int x = 0; x < tones->width_px; x++) {
-            double range = (double)node_at(view, x, y)->range_m, through = pow(0.05, range / visibility_m);
+            double range = (double)node_at(view, x, y)->range_m, through = air_transmission(visibility_m, range);
             size_t at = (size_t)y * (size_t)tones->width_px + (size_t)x;
             for (size_t c = 0; isfinite(range) && c < 3; c++) {
                 double own = (exp((double)tones->ln[3 * at + c]) - haze[c] * (1 - through)) / through;

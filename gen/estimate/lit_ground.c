@@ -30,9 +30,10 @@ static bool add(struct candidates *c, const struct tones *tones, int x, int y)
     return true;
 }
 
-static bool add_patch(struct candidates *c, const struct scene *s, const struct tones *tones, const struct camera *camera)
+static bool add_patch(struct candidates *c, const struct scene *s, const struct tones *tones, const struct camera *camera,
+                      const struct scene_shot *shot)
 {
-    const struct camera *given = &s->cameras[s->shots[0].camera].camera;
+    const struct camera *given = &s->cameras[shot->camera].camera;
     double across = (double)camera->width_px / given->width_px / tones->reduction;
     double down = (double)camera->height_px / given->height_px / tones->reduction;
     bool ok = true;
@@ -171,14 +172,14 @@ static bool list_pixels(struct vec2 **q_px, size_t *count, const struct lit_grou
 
 bool lit_ground_find(struct lit_ground *ground, struct vec2 **q_px, size_t *n, const struct stage *stage, const struct tones *tones,
                      const struct ground_view *view, const struct vec3 *sun, const struct camera *camera,
-                     struct pose world_from_camera, struct error *err)
+                     const struct scene_shot *shot, struct error *err)
 {
     const struct scene *s = stage->scene;
     bool patch = !s->exposure_given && !s->exposure_of_roads && !s->exposure_of_ground;
     struct candidates c = { 0 };
     struct lit_ground g = { 0 };
-    bool ok = patch ? add_patch(&c, s, tones, camera)
-              : s->exposure_of_roads ? add_roads(&c, stage, tones, sun, camera, world_from_camera, err) : true;
+    bool ok = patch ? add_patch(&c, s, tones, camera, shot)
+              : s->exposure_of_roads ? add_roads(&c, stage, tones, sun, camera, shot->world_from_camera, err) : true;
     if (ok && c.n < CANDIDATES_MIN) ok = add_ground(&c, stage, tones, view, sun);
     if (ok && !patch) keep_colored(&c, tones, s->ground_albedo);
     g.looked_at = c.n;

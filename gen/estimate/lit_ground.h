@@ -27,7 +27,7 @@ struct lit_ground {
 #define LIT_GROUND_MAX 2000
 bool lit_ground_find(struct lit_ground *ground, struct vec2 **q_px, size_t *n, const struct stage *stage, const struct tones *tones,
                      const struct ground_view *view, const struct vec3 *sun, const struct camera *camera,
-                     struct pose world_from_camera, struct error *err);
+                     const struct scene_shot *shot, struct error *err);
 
 /* The commonest surfaces of all ground in view: 1 of them is the lit ground above, others follow while they cover 2 % of it.
  * Out: surfaces (most); returns how many, 0 when memory ends */
