@@ -28,7 +28,8 @@ bool sky_map_write(char path[SKY_MAP_SIZE], const char *out_folder, const struct
     uint64_t hash = hash_bytes(FILE_HASH_SEED, light->sky.data, image_size(&light->sky));
     snprintf(path, SKY_MAP_SIZE, "frames/sky_%016llx.exr", (unsigned long long)hash);
     char *file = string_format("%s/%s", out_folder, path), *folder = string_format("%s/frames", out_folder);
-    bool ok = file && folder && folder_make(folder, err) && (file_exists(file) || image_write(file, &light->sky, err));
+    bool ok = ((file && folder) || error_set(err, ERR_MEMORY, "no memory for a path")) && folder_make(folder, err) &&
+              (file_exists(file) || image_write(file, &light->sky, err));
     free(folder);
     free(file);
     return ok;
@@ -176,7 +177,7 @@ static bool write_pass(const char *frame_folder, const char *name, const struct 
         if (!receivers || p->light->has_sun || mirrors) write_entities(&sdl, p, receivers && !mirrors);
     }
     char *include = string_format("pass_%s.inc", name), *path = string_format("%s/%s.pov", frame_folder, name);
-    bool ok = include && path;
+    bool ok = (include && path) || error_set(err, ERR_MEMORY, "no memory for a path");
     if (ok) {
         sdl_include(&sdl, include);
         ok = sdl_write(&sdl, path, err);
