@@ -40,7 +40,7 @@ static int ascending(const void *a, const void *b)
 static double median_luminance(const struct image *picture)
 {
     enum { RINGS = 50, STEPS = 100 };
-    static double sample[RINGS * STEPS];
+    double sample[RINGS * STEPS];
     for (int ring = 0; ring < RINGS; ring++)
         for (int step = 0; step < STEPS; step++) {
             double elevation = asin((ring + 0.5) / RINGS);
