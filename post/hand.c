@@ -112,14 +112,13 @@ static bool levels_take(struct image *levels, const struct image *rgb, const str
     return true;
 }
 
-/* Give each value of the window that changed to `to`: its own there keeps every bit. */
-static void put_changes(struct image *to, const struct image *levels, const struct image *rgb, struct rect w)
+/* A level that did not change is the whole number that it was, and keeps every bit. */
+static void put_levels(struct image *to, const struct image *levels, struct rect w)
 {
     for (int y = 0; y < levels->height_px; y++) {
         const float *level = image_f32(levels, 0, y);
-        const uint8_t *own = image_u8(rgb, w.x0, w.y0 + y);
         uint8_t *out = image_u8(to, w.x0, w.y0 + y);
-        for (int i = 0; i < 3 * levels->width_px; i++) out[i] = byte_of(level[i]) == own[i] ? own[i] : byte_of(level[i]);
+        for (int i = 0; i < 3 * levels->width_px; i++) out[i] = byte_of(level[i]);
     }
 }
 
@@ -128,7 +127,7 @@ static bool compress(struct image *levels, const struct image *rgb, const struct
     struct image filed;
     struct rect whole = { 0, 0, rgb->width_px, rgb->height_px };
     if (!window_cut(&filed, rgb, whole, err)) return false;
-    put_changes(&filed, levels, rgb, w);
+    put_levels(&filed, levels, w);
     bool ok = compression_apply(&filed, w, c, err);
     for (int y = 0; ok && y < levels->height_px; y++) {
         float *level = image_f32(levels, 0, y);
@@ -172,7 +171,7 @@ bool hand_develop(struct image *rgb, const struct hand *hand, const struct manif
               (hand->sharpening <= 0 || sharpen(&levels, rgb, &cover, hand->sharpening, w, err)) &&
               (!hand->compression.found || compress(&levels, rgb, &hand->compression, w, err)) &&
               (!hand->has_grain || grain_add(&levels, &cover, &hand->grain, key, w, m->width_px, err));
-    if (ok) put_changes(rgb, &levels, rgb, w);
+    if (ok) put_levels(rgb, &levels, w);
     image_release(&levels);
     image_release(&cover);
     return ok;
