@@ -38,8 +38,10 @@ bool frame_expose(struct frame *f, struct error *err);
 
 /* The manifest, the last file of a frame: frame_manifest.c */
 bool frame_write_manifest(const struct frame *f, const struct frame_result *result, struct error *err);
-/* What is round the entities that matter, into the frame's folder: frame_surroundings.c */
+/* What is round the entities that matter, into the frame's folder: frame_surroundings.c
+ * Out: *surroundings, untouched on failure; free with frame_release_surroundings */
 bool frame_write_surroundings(struct pass_surroundings *surroundings, struct frame *f, struct error *err);
+void frame_release_surroundings(struct pass_surroundings *surroundings);
 /* What POV-Ray renders, in a view: frame_passes.c */
 bool frame_write_passes(struct frame *f, const struct view *view, struct error *err);
 

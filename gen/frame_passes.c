@@ -72,7 +72,7 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
     struct receiver *receivers = calloc(f->moment.n + 1, sizeof *receivers);
     struct model_include *includes = calloc(f->moment.n + 1, sizeof *includes);
     size_t n = 0;
-    struct pass_surroundings surroundings;
+    struct pass_surroundings surroundings = { .sky_map = "" };
     struct place_files files;
     struct shaded_ground ground = { 0 };
     struct static_cut around = { 0 };
@@ -98,6 +98,7 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
          (f->stage->mesh ? write_place(&files, &ground, &around, &passes.ground, f, err)
                                : shaded_ground_of_plane(&ground, &f->scene->ground, receivers, n, err)) &&
          light_ground(&ground, &around, f, view, err) && passes_write(f->folder, &passes, err);
+    frame_release_surroundings(&surroundings);
     shaded_ground_release(&ground);
     static_cut_release(&around);
     free(entities);

@@ -3,6 +3,7 @@
 #include "gen/light/orthophoto.h"
 #include "gen/light/panorama.h"
 #include "gen/light/seen.h"
+#include "gen/light/standing.h"
 #include "lib/file.h"
 
 #include <math.h>
@@ -95,13 +96,39 @@ static bool write_sky(struct pass_surroundings *out, const double color_gain[3],
     return ok;
 }
 
+static bool write_standing(struct pass_surroundings *out, const struct frame *f, const struct seen *seen, struct error *err)
+{
+    size_t occluders = f->scene->occluder_count;
+    out->standing = calloc(occluders + 1, sizeof *out->standing);
+    if (!out->standing) return error_set(err, ERR_MEMORY, "no memory for a frame");
+    for (size_t i = 0; i < occluders; i++) {
+        struct pass_standing *s = &out->standing[out->standing_count];
+        char name[40];
+        if (!standing_create(&s->thing, seen, &f->occluders[i], err)) return false;
+        if (!s->thing.count) continue;
+        out->standing_count++;
+        snprintf(name, sizeof name, "standing-%zu.exr", i);
+        if (!write(s->radiance, f, name, &s->thing.radiance, err)) return false;
+    }
+    return true;
+}
+
+void frame_release_surroundings(struct pass_surroundings *surroundings)
+{
+    for (size_t i = 0; i < surroundings->standing_count; i++) standing_release(&surroundings->standing[i].thing);
+    free(surroundings->standing);
+    *surroundings = (struct pass_surroundings){ .sky_map = "" };
+}
+
 bool frame_write_surroundings(struct pass_surroundings *surroundings, struct frame *f, struct error *err)
 {
     struct pass_surroundings out = { .sky_map = "" };
     double color_gain[3] = { 0, 0, 0 };
     if (!frame_read_picture(f, err)) return false;
     struct seen seen = seen_of(f);
-    if (!write_ground(&out, color_gain, f, &seen, err) || !write_sky(&out, color_gain, f, &seen, err)) return false;
-    *surroundings = out;
-    return true;
+    bool ok = write_ground(&out, color_gain, f, &seen, err) && write_sky(&out, color_gain, f, &seen, err) &&
+              write_standing(&out, f, &seen, err);
+    if (ok) *surroundings = out;
+    else frame_release_surroundings(&out);
+    return ok;
 }

@@ -30,6 +30,7 @@ gen_libgen_a_SOURCES = \
   %D%/light/seen.c %D%/light/seen.h \
   %D%/light/sky_form.c %D%/light/sky_form.h \
   %D%/light/sky_image.h \
+  %D%/light/standing.c %D%/light/standing.h \
   %D%/light/sun.c %D%/light/sun.h \
   %D%/model/affine.c %D%/model/affine.h \
   %D%/model/catalogue.c %D%/model/catalogue.h \

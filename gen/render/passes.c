@@ -133,6 +133,44 @@ static void write_ground(struct sdl *sdl, const struct passes *p, bool object)
     if (p->shades_include) sdl_include(sdl, p->shades_include);
 }
 
+/* What stands in the photograph: it shines as it is seen there. */
+static void write_standing(struct sdl *sdl, const struct pass_surroundings *around)
+{
+    sdl_declare_number(sdl, "Has_Standing", around && around->standing_count > 0);
+    if (!around || !around->standing_count) return;
+    sdl_declare(sdl, "Standing");
+    sdl_begin(sdl, "union");
+    for (size_t i = 0; i < around->standing_count; i++) {
+        const struct standing *s = &around->standing[i].thing;
+        sdl_begin(sdl, "polygon");
+        sdl_number(sdl, (double)s->count + 1);
+        for (size_t k = 0; k <= s->count; k++) {
+            sdl_comma(sdl);
+            sdl_vector2(sdl, s->outline[k % s->count].x, s->outline[k % s->count].y);
+        }
+        sdl_begin(sdl, "pigment");
+        sdl_begin(sdl, "image_map");
+        sdl_word(sdl, "exr");
+        sdl_string(sdl, around->standing[i].radiance);
+        sdl_word(sdl, "interpolate");
+        sdl_number(sdl, 2);
+        sdl_word(sdl, "once");
+        sdl_end(sdl);
+        sdl_end(sdl);
+        sdl_begin(sdl, "finish");
+        sdl_word(sdl, "emission");
+        sdl_number(sdl, 1);
+        sdl_word(sdl, "diffuse");
+        sdl_number(sdl, 0);
+        sdl_end(sdl);
+        sdl_word(sdl, "scale");
+        sdl_vector(sdl, vec3(s->size_m.x, s->size_m.y, 1));
+        sdl_matrix(sdl, s->world_from_rectangle);
+        sdl_end(sdl);
+    }
+    sdl_end(sdl);
+}
+
 /* What bounces onto the entities in the object pass. */
 static void write_surroundings(struct sdl *sdl, const struct passes *p)
 {
@@ -145,6 +183,7 @@ static void write_surroundings(struct sdl *sdl, const struct passes *p)
     sdl_declare_color(sdl, "Ground_Sky", sky);
     sdl_declare_number(sdl, "Fill", p->scene->fill);
     sdl_declare_color(sdl, "Open_Light", p->light->irradiance);
+    write_standing(sdl, around);
     sdl_declare_number(sdl, "Has_Orthophoto", around != NULL);
     if (!around) return;
     sdl_declare_string(sdl, "Orthophoto", around->orthophoto);

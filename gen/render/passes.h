@@ -4,6 +4,7 @@
 
 #include "gen/world/entity.h"
 #include "gen/light/light.h"
+#include "gen/light/standing.h"
 #include "gen/render/model_sdl.h"
 #include "gen/trace/shaded_ground.h"
 #include "gen/scene/scene.h"
@@ -31,11 +32,14 @@ bool sky_map_write(char path[SKY_MAP_SIZE], const char *out_folder, const struct
 
 /* What is round the entities in its own colours, in files: paths relative to the output folder. */
 #define SURROUNDINGS_PATH_SIZE 64
+struct pass_standing { struct standing thing; char radiance[SURROUNDINGS_PATH_SIZE]; };
 struct pass_surroundings {
     char orthophoto[SURROUNDINGS_PATH_SIZE], orthophoto_coarse[SURROUNDINGS_PATH_SIZE];
     struct vec2 low_m, high_m;
     double ground_albedo[3];        /* beyond the orthophoto */
     char sky_map[SURROUNDINGS_PATH_SIZE], mirrored_sky_map[SURROUNDINGS_PATH_SIZE]; /* "": the light's sky */
+    struct pass_standing *standing; /* (standing_count) */
+    size_t standing_count;
 };
 
 /* All that the three scenes of a frame say. */

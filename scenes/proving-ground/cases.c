@@ -44,6 +44,8 @@ const struct proving_case proving_cases[] = {
 const size_t proving_case_count = sizeof proving_cases / sizeof *proving_cases;
 
 const struct vec3 proving_post_m = { -6.5, -3.9, 0.12 };
+const struct vec3 proving_parked_m[] = { { -1.7, -4.6, 0 }, { 9.4, -4.6, 0 }, { 20.6, -4.65, 0 }, { -14, -4.6, 0 } };
+const size_t proving_parked_count = sizeof proving_parked_m / sizeof *proving_parked_m;
 
 const struct proving_case *proving_case(const char *name)
 {

@@ -27,7 +27,7 @@ struct proving_case {
     double haze[3];             /* linear photograph values */
     const struct proving_shot *shots;
     size_t shot_count;
-    bool has_mesh;              /* the tool is given the reconstruction; else a plane and the lamp post as occluder */
+    bool has_mesh;              /* the tool is given the reconstruction; else a plane, and lamp post and parked cars as occluders */
     struct camera camera;       /* at full size */
     const struct proving_entity *entities;
     int patch_px[4];            /* sunlit asphalt at full size, without a mesh */
@@ -49,6 +49,9 @@ struct pose proving_shot_pose(const struct proving_shot *s);
 extern const struct vec3 proving_post_m;
 #define PROVING_POST_RADIUS_M 0.07
 #define PROVING_POST_HEIGHT_M 6.0
+/* The ground below the middles of the parked cars, which face +x. */
+extern const struct vec3 proving_parked_m[];
+extern const size_t proving_parked_count;
 
 /* What the camera does to the light, the same in every case. */
 #define PROVING_SOFTNESS_PX 0.55    /* standard deviation at any size, besides the area of a pixel */

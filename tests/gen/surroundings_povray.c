@@ -24,15 +24,40 @@ static void ball(struct solid *solid)
         for (int k = 0; k < 3; k++) solid->mesh.normal[i][k] = solid->mesh.position_m[i][k] - (k == 2);
 }
 
-/* The object pass of a ball, over the ground that the picture shows or, without one, the scene's. */
-static bool render(struct image *pass, const struct light *light, const struct entity *entity, struct image *picture)
+/* Is a pixel's centre on one side of all edges of a convex outline? */
+static bool inside(const struct occluder *o, int x, int y)
+{
+    int left = 0, right = 0;
+    for (size_t i = 0; i < o->polygon_count; i++) {
+        struct vec2 a = o->polygon_px[i], b = o->polygon_px[(i + 1) % o->polygon_count];
+        *((b.x - a.x) * (y + 0.5 - a.y) < (b.y - a.y) * (x + 0.5 - a.x) ? &left : &right) += 1;
+    }
+    return !left || !right;
+}
+
+/* Where nothing stands before the ground. */
+static bool hide(struct image *unhidden, const struct occluder *occluder)
+{
+    struct error err = ERROR_NONE;
+    if (!image_init(unhidden, WIDTH, HEIGHT, 1, PIXEL_U8, &err)) return false;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) *image_u8(unhidden, x, y) = inside(occluder, x, y) ? 0 : 255;
+    return true;
+}
+
+/* The object pass of a ball, over the ground that the picture shows or, without one, the scene's; beside what stands there. */
+static bool render(struct image *pass, const struct light *light, const struct entity *entity, struct image *picture,
+                   const struct occluder *occluder)
 {
     struct error err = ERROR_NONE;
     char sky_map[SKY_MAP_SIZE], *folder = string_format("%s/frames", out), *path = string_format("%s/object.exr", folder);
     char *fine = string_format("%s/fine.png", folder), *coarse = string_format("%s/coarse.png", folder);
+    char *standing = string_format("%s/standing.exr", folder);
     const struct model_include include = model_include(0, entity);
     const struct shaded_ground nothing = { 0 };
-    struct pass_surroundings around = { .orthophoto = "frames/fine.png", .orthophoto_coarse = "frames/coarse.png" };
+    struct image unhidden = { 0 };
+    struct pass_standing thing = { .radiance = "frames/standing.exr" };
+    struct pass_surroundings around = { .orthophoto = "frames/fine.png", .orthophoto_coarse = "frames/coarse.png", .standing = &thing };
     struct passes p = { .scene = &scene, .sky_map = sky_map, .light = light, .world_from_camera = looking(eye, middle), .entities = entity,
                         .includes = &include, .entity_count = 1, .ground = scene.ground, .receivers = &nothing };
     bool ok = folder_make(folder, &err) && sky_map_write(sky_map, out, light, &err) &&
@@ -41,8 +66,15 @@ static bool render(struct image *pass, const struct light *light, const struct e
         struct orthophoto ground;
         struct seen seen = { .picture = picture, .camera = &camera, .world_from_camera = p.world_from_camera, .k = { 1, 1, 1 } };
         seen_init(&seen);
+        if (occluder) {
+            ok = hide(&unhidden, occluder);
+            seen.unhidden = &unhidden;
+        }
         struct orthophoto_input in = { .seen = &seen, .light = light, .ground = &scene.ground, .entities = entity, .n = 1, .ground_albedo = { 0.3, 0.3, 0.3 } };
-        ok = orthophoto_create(&ground, &in, &err) && image_write(fine, &ground.mirrored, &err) && image_write(coarse, &ground.bouncing, &err);
+        ok = ok && orthophoto_create(&ground, &in, &err) && image_write(fine, &ground.mirrored, &err) && image_write(coarse, &ground.bouncing, &err);
+        struct pass_standing *s = &around.standing[0];
+        if (ok && occluder) ok = standing_create(&s->thing, &seen, occluder, &err) && s->thing.count && image_write(standing, &s->thing.radiance, &err);
+        around.standing_count = occluder != NULL;
         around.low_m = ground.low_m;
         around.high_m = ground.high_m;
         memcpy(around.ground_albedo, ground.elsewhere, sizeof around.ground_albedo);
@@ -55,6 +87,9 @@ static bool render(struct image *pass, const struct light *light, const struct e
     free(path);
     free(fine);
     free(coarse);
+    free(standing);
+    standing_release(&thing.thing);
+    image_release(&unhidden);
     return ok;
 }
 
@@ -78,11 +113,11 @@ static void test_bounce(const struct light *light, struct entity *entity, struct
     struct image pass[3] = { { 0 } };
     double bare[3], shown[3], red[3];
     const double *e = light->irradiance;
-    if (!OK(render(&pass[0], light, entity, NULL), "a white ball over bare ground")) return;
+    if (!OK(render(&pass[0], light, entity, NULL, NULL), "a white ball over bare ground")) return;
     fill_px(picture, 0, 0, WIDTH, HEIGHT, 0.3 * e[0], 0.3 * e[1], 0.3 * e[2]);
-    if (!OK(render(&pass[1], light, entity, picture), "over a picture of the same ground")) return;
+    if (!OK(render(&pass[1], light, entity, picture, NULL), "over a picture of the same ground")) return;
     fill_px(picture, 0, 0, WIDTH, HEIGHT, 0.3 * e[0], 0.05 * e[1], 0.05 * e[2]);
-    if (!OK(render(&pass[2], light, entity, picture), "over a picture of red ground")) return;
+    if (!OK(render(&pass[2], light, entity, picture, NULL), "over a picture of red ground")) return;
     underside(bare, &pass[0]);
     underside(shown, &pass[1]);
     underside(red, &pass[2]);
@@ -114,6 +149,12 @@ static struct vec2 mirrored_at(struct vec3 point)
     return (struct vec2){ 80 + 180 * vec3_dot(way, right) / z, 60 - 180 * vec3_dot(way, vec3_cross(right, ahead)) / z };
 }
 
+static double red_at(const struct image *pass, int x, int y)
+{
+    const float *p = image_f32(pass, x, y);
+    return p[3] >= 1 && p[0] > 2 * p[1] ? (double)(p[0] - p[1]) : 0;
+}
+
 static void test_mirror(const struct light *light, struct entity *entity, struct image *picture, struct vec3 marker)
 {
     struct image pass = { 0 };
@@ -126,18 +167,55 @@ static void test_mirror(const struct light *light, struct entity *entity, struct
             if (plane_intersect(&scene.ground, &p, eye, ray) && fabs(p.x - marker.x) < 0.3 && fabs(p.y - marker.y) < 0.3)
                 fill_px(picture, x, y, x + 1, y + 1, 0.7 * e[0], 0.05 * e[1], 0.05 * e[2]);
         }
-    if (!OK(render(&pass, light, entity, picture), "a mirror ball over a marker at (%g, %g)", marker.x, marker.y)) return;
+    if (!OK(render(&pass, light, entity, picture, NULL), "a mirror ball over a marker at (%g, %g)", marker.x, marker.y)) return;
     double sum = 0, sx = 0, sy = 0;
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
-            const float *p = image_f32(&pass, x, y);
-            double redness = p[3] >= 1 && p[0] > 2 * p[1] ? (double)(p[0] - p[1]) : 0;
+            double redness = red_at(&pass, x, y);
             sum += redness, sx += redness * (x + 0.5), sy += redness * (y + 0.5);
         }
     struct vec2 want = mirrored_at(marker);
     OK(sum > 0, "the ball shows it");
     NEAR(sx / sum, want.x, 1, "where its mirror image is, across");
     NEAR(sy / sum, want.y, 1, "and down");
+    image_release(&pass);
+}
+
+/* A red board, 1 m wide and 1.6 m high, upright before the ball, facing the camera: the ball sees its back. */
+static void test_upright(const struct light *light, struct entity *entity, struct image *picture)
+{
+    const double width = 1, height = 1.6, *e = light->irradiance;
+    const struct vec3 foot = vec3(2, -1.8, 0), away = vec3_unit(vec3(foot.x - eye.x, foot.y - eye.y, 0)), right = vec3(away.y, -away.x, 0);
+    const struct pose camera_from_world = pose_inverse(looking(eye, middle));
+    struct vec2 polygon[4];
+    struct image pass = { 0 };
+    struct error err = ERROR_NONE;
+    fill_px(picture, 0, 0, WIDTH, HEIGHT, 0.2 * e[0], 0.2 * e[1], 0.2 * e[2]);
+    for (int i = 0; i < 4; i++) {
+        struct vec3 p = vec3_add(foot, vec3_scale(right, (i == 0 || i == 3 ? -0.5 : 0.5) * width));
+        p.z = i < 2 ? 0 : height;
+        if (!OK(camera_project(&camera, &polygon[i], pose_apply(camera_from_world, p), &err), "corner %d is in the picture", i)) return;
+    }
+    struct occluder board = { .name = "board", .polygon_px = polygon, .polygon_count = 4, .foot_m = foot };
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++)
+            if (inside(&board, x, y)) fill_px(picture, x, y, x + 1, y + 1, 0.5 * e[0], 0.02 * e[1], 0.02 * e[2]);
+    /* The ground that its upper part hides, beside it as the ball sees it. */
+    struct vec3 beyond = vec3_add(vec3(eye.x, eye.y, 0), vec3_scale(vec3(foot.x - eye.x, foot.y - eye.y, 0), eye.z / (eye.z - 0.9 * height)));
+    struct vec2 flat = mirrored_at(beyond);
+    if (!OK(render(&pass, light, entity, picture, NULL), "a mirror ball beside something red")) return;
+    OK(red_at(&pass, (int)flat.x, (int)flat.y) > 0, "untold, it lies on the ground");
+    image_release(&pass);
+    if (!OK(render(&pass, light, entity, picture, &board), "a mirror ball beside an upright board")) return;
+    static const double across[] = { -0.3, 0, 0.3 }, up[] = { 0.3, 0.8, 1.3 };
+    for (int i = 0; i < 9; i++) {
+        struct vec3 p = vec3_add(foot, vec3(right.x * across[i % 3] * width, right.y * across[i % 3] * width, up[i / 3]));
+        struct vec2 q = mirrored_at(p);
+        OK(red_at(&pass, (int)q.x, (int)q.y) > 0.2 * e[0], "it is mirrored where it stands, %g m to the right, %g m up", across[i % 3], up[i / 3]);
+    }
+    struct vec2 over = mirrored_at(vec3_add(foot, vec3(0, 0, height + 0.6)));
+    OK(!(red_at(&pass, (int)over.x, (int)over.y) > 0), "not above its height");
+    OK(!(red_at(&pass, (int)flat.x, (int)flat.y) > 0), "and not on the ground");
     image_release(&pass);
 }
 
@@ -158,6 +236,7 @@ int main(void)
     entity.model = &mirror.model;
     test_mirror(&light, &entity, &picture, vec3(1.2, -1.9, 0));
     test_mirror(&light, &entity, &picture, vec3(-2, -1.4, 0));
+    test_upright(&light, &entity, &picture);
     image_release(&picture);
     light_release(&light);
     solid_free(&white);
