@@ -73,7 +73,7 @@ bool compression_read(struct compression *compression, const char *path, struct 
     return ok;
 }
 
-/* Out: bytes, libjpeg's own; free it also on failure. */
+/* Out: bytes: the storage of *size that is given, or libjpeg's own where that did not do; on failure, untouched. */
 static bool encode(unsigned char **bytes, unsigned long *size, const struct image *rgb, const struct compression *c)
 {
     struct jpeg_compress_struct codec;
@@ -151,14 +151,15 @@ bool compression_apply(struct image *rgb, struct rect window, const struct compr
 {
     struct rect blocks = whole_blocks(window, c);
     struct image cut;
-    unsigned char *bytes = NULL;
-    unsigned long size = 0;
     if (!window_cut(&cut, rgb, blocks, err)) return false;
-    bool ok = (encode(&bytes, &size, &cut, c) && decode(&cut, bytes, size)) ||
-              error_set(err, ERR_MEMORY, "no memory to compress what is put in");
+    unsigned long size = 4096 + 4 * (unsigned long)image_size(&cut);
+    unsigned char *room = malloc(size), *bytes = room;
+    bool ok = room && (encode(&bytes, &size, &cut, c) && decode(&cut, bytes, size));
+    if (!ok) error_set(err, ERR_MEMORY, "what is put in cannot be compressed as the photograph is");
     for (int y = window.y0; ok && y < window.y1; y++)
         memcpy(image_u8(rgb, window.x0, y), image_u8(&cut, window.x0 - blocks.x0, y - blocks.y0), 3 * (size_t)(window.x1 - window.x0));
-    free(bytes);
+    if (bytes != room) free(bytes);
+    free(room);
     image_release(&cut);
     return ok;
 }

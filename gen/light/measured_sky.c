@@ -148,6 +148,16 @@ static bool turn_map(struct image *sky, const struct map *map, struct error *err
     return true;
 }
 
+/* A colour of which nothing comes from above cannot be brought to the scene's unit. */
+static bool has_all_colors(const struct image *picture)
+{
+    bool has[3] = { false };
+    for (int row = 0; row < picture->height_px / 2; row++)
+        for (int column = 0; column < picture->width_px; column++)
+            for (int c = 0; c < 3; c++) has[c] |= image_f32(picture, column, row)[c] > 0;
+    return has[0] && has[1] && has[2];
+}
+
 /* Three channels, nothing negative, nothing that is no number. */
 static bool check_picture(struct image *clean, const struct image *picture, const char *file, struct error *err)
 {
@@ -189,6 +199,8 @@ bool measured_sky_read(struct measured_sky *measured, const struct scene *scene,
                       "light.map.north_px: the map is %d px wide", width);
     } else if (!(median_luminance(&picture) > 0)) {
         ok = error_at(err, ERR_INPUT, m->file, 0, 0, "has no light above the horizon");
+    } else if (!has_all_colors(&picture)) {
+        ok = error_at(err, ERR_INPUT, m->file, 0, 0, "has no red, no green or no blue above the horizon: light for photographs has all three");
     }
     ok = ok && (scene->sun == SUN_NONE || find_sun(&made, &map, scene, towards, err));
     if (ok) { /* rows in fours: the horizon stays an edge */

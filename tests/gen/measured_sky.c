@@ -172,6 +172,9 @@ int main(void)
     memset(map.data, 0, image_size(&map));
     OK(image_write(exr, &map, &err), "a map is written");
     check_refusal(&scene, "a black map", exr, 0, "no light above the horizon");
+    for (int i = 0; i < WIDTH * HEIGHT; i++) ((float *)map.data)[3 * i] = ((float *)map.data)[3 * i + 1] = SKY;
+    OK(image_write(exr, &map, &err), "a map is written");
+    check_refusal(&scene, "a map without blue", exr, 0, "has no red, no green or no blue above the horizon");
     image_release(&map);
     if (image_init(&map, 300, 200, 3, PIXEL_F32, &err) && image_write(exr, &map, &err))
         check_refusal(&scene, "a picture that is no map", exr, 0, "is 300x200 px: an equirectangular map is twice as wide as high");
