@@ -102,7 +102,7 @@ static void make_box_truck(struct vehicle *v, const struct vehicle_spec *spec, e
         boxes(s, 0.5, -0.4, 1.10, 1.14, 0.72, 0.80, 0.01, SILVER_PANEL);
         if (level == NEAR) part_box(s, vec3(-3.47, -0.55, 0.78), vec3(0.012, 0.152, 0.076), 0.004, PLATE_WHITE);
     }
-    add_axles(v, &wheel_small, &twin_small, box_cab.axle_x[0], 1.0, -1.38, 1.06, 0, level);
+    add_axles(v, &wheel_small, &twin_small, box_cab.axle_x[0], 0.945, -1.38, 1.06, 0, level);
 }
 
 /* --- ambulance --- */
@@ -354,15 +354,15 @@ static void make_bus(struct vehicle *v, const struct vehicle_spec *spec, enum le
 #define TRUCK(id, name, class, make, form, source, color, ...) \
     static const struct vehicle_spec spec_##id = { name, class, { __VA_ARGS__ }, source, make, form, color, 1 }
 TRUCK(box_truck, "box-truck", CLASS_TRUCK, make_box_truck, NULL, "published dimensions of a best-selling light truck with a 16 ft box (Isuzu NPR, 150 in wheelbase)", NULL,
-      7.0, 2.52, 3.25, 2.44, 3.81, 1.66, 0.20, 0.81);
+      7.0, 2.52, 3.25, 2.44, 3.81, 1.67, 0.20, 0.81);
 TRUCK(ambulance, "ambulance", CLASS_AMBULANCE, make_ambulance, NULL, "published dimensions of type III ambulances (KKK-A-1822 F; Ford E-450 cutaway, 158 in wheelbase)", "#f0f0ee",
       6.84, 2.58, 2.75, 2.40, 4.01, 1.74, 0.20, 0.78);
 TRUCK(fire_truck, "fire-truck", CLASS_FIRE_TRUCK, make_fire_truck, NULL, "published dimensions of custom-cab pumpers (32 ft long, 98 in wide; NFPA 1901)", "#a01418",
-      9.96, 3.04, 3.17, 2.48, 5.03, 2.10, 0.30, 1.03);
+      9.96, 3.04, 3.17, 2.48, 5.03, 2.15, 0.30, 1.03);
 TRUCK(dump_truck, "dump-truck", CLASS_CONSTRUCTION, make_dump_truck, NULL, "published dimensions of three-axle dump trucks with a 16 ft bed (Mack Granite, Kenworth T880)", "#c07818",
       8.15, 2.72, 3.0, 2.59, 5.3, 2.05, 0.30, 1.03);
 TRUCK(bus, "city-bus", CLASS_BUS, make_bus, &bus_body, "published dimensions of 40 ft low-floor city buses (New Flyer Xcelsior XD40)", "#b02024",
-      12.22, 2.92, 3.26, 2.55, 7.10, 2.27, 0.30, 0.97);
+      12.22, 2.92, 3.26, 2.55, 7.10, 2.21, 0.30, 0.97);
 
 const struct vehicle_spec *const trucks[] = { &spec_box_truck, &spec_bus, &spec_ambulance, &spec_fire_truck, &spec_dump_truck };
 const int truck_count = sizeof trucks / sizeof *trucks;

@@ -4,6 +4,7 @@
 #include "gen/model/rig.h"
 #include "tests/tap.h"
 
+#include <jansson.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -150,11 +151,30 @@ static void check_size(const struct model *m, const struct catalogue_model *list
     NEAR(m->lowest_m, 0, 0.002, "%s: its lowest point lies on the file's ground", name);
 }
 
-static void check_wheels(const struct model *m, const char *path, int wheels, const char *name)
+/* Axle distance, track, and wheel diameter as the catalogue's file has them: read anew, for gen does not ask for them. */
+struct stated { double wheelbase_m, track_m, wheel_m; };
+
+static struct stated stated_of(const char *catalogue, const char *name)
+{
+    json_t *root = json_load_file(catalogue, 0, NULL), *entry;
+    struct stated s = { 0, 0, 0 };
+    size_t i;
+    json_array_foreach(json_object_get(root, "models"), i, entry) {
+        if (strcmp(json_string_value(json_object_get(entry, "name")), name)) continue;
+        s.wheelbase_m = json_number_value(json_object_get(entry, "wheelbase_m"));
+        s.track_m = json_number_value(json_object_get(entry, "track_m"));
+        s.wheel_m = json_number_value(json_object_get(entry, "wheel_diameter_m"));
+    }
+    json_decref(root);
+    return s;
+}
+
+static void check_wheels(const struct model *m, const char *path, int wheels, const struct stated *stated, const char *name)
 {
     struct error err = ERROR_NONE;
     struct gltf gltf;
     int found = 0, standing = 0;
+    double front_m = -1e9, rear_m = 0, rear_count = 0, left_m = 0, radius_m = 0; /* glTF's z is forward, x left */
     if (!OK(gltf_read(&gltf, path, &err), "%s: is read", name)) return;
     for (size_t i = 0; i < gltf.channel_count; i++) {
         const struct gltf_node *node = &gltf.nodes[gltf.channels[i].node];
@@ -172,15 +192,21 @@ static void check_wheels(const struct model *m, const char *path, int wheels, co
             }
         }
         standing += fabs(node->translation[1] + low) < 0.002;
+        if (node->translation[2] > front_m) front_m = node->translation[2], left_m = fabs(node->translation[0]), radius_m = node->translation[1];
+        if (node->translation[2] < 0) rear_m += node->translation[2], rear_count++;
     }
     OK(found == wheels && standing == wheels, "%s: %d wheels, %d on the ground", name, found, standing);
     gltf_release(&gltf);
+    NEAR(front_m - rear_m / rear_count, stated->wheelbase_m, 0.02, "%s: wheelbase, to the middle of the rear axles", name);
+    NEAR(2 * left_m, stated->track_m, 0.03, "%s: track of the front wheels", name);
+    NEAR(2 * radius_m, stated->wheel_m, 0.002, "%s: diameter of the wheels", name);
     OK(m->rig && m->rig->animation_count == 1 && !strcmp(m->rig->animations[0].name, "roll") && m->rig->channel_count == (size_t)wheels,
        "%s: all of them roll", name);
 }
 
 static void check_vehicle(const struct catalogue_model *listed, int wheels, const struct material_rules *rules)
 {
+    struct stated stated = stated_of(listed->home, listed->name);
     struct model_options options = listed->options;
     options.rules = rules;
     for (int detail = 0; detail < DETAIL_COUNT; detail++) {
@@ -200,7 +226,7 @@ static void check_vehicle(const struct catalogue_model *listed, int wheels, cons
         OK(paint && glass == (wheels > 2 && detail != DETAIL_FAR), "%s: takes a colour%s", name, glass ? ", has glass" : "");
         check_surface(m, name);
         check_size(m, listed, (enum detail)detail, name);
-        check_wheels(m, listed->files[detail], wheels, name);
+        check_wheels(m, listed->files[detail], wheels, &stated, name);
         model_destroy(m);
     }
 }
