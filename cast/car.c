@@ -106,7 +106,7 @@ static void draw_windows(struct shell *s, const struct coach *coach, const struc
 
 static void draw_doors(struct shell *s, const struct coach *coach, const struct form *solid, const struct car_spec *spec)
 {
-    const double half = 0.003;
+    const double half = 0.004;
     for (int i = 0; i < DOORS; i++) {
         const struct door_spec *d = &spec->door[i];
         if (d->front_x == d->rear_x) continue;
@@ -129,7 +129,7 @@ static void add_pair(struct shell *body, const struct shell *left)
 
 static void add_seats(struct shell *left, struct shell *body, const struct car_spec *spec, enum level level)
 {
-    int n = level == NEAR ? 12 : 8;
+    int n = level == NEAR ? 10 : 8;
     double z = spec->seat_z, half = spec->coach.half_width;
     for (int i = 0; i < SEATS; i++) {
         double x = spec->seat_x[i];
@@ -159,7 +159,7 @@ static void add_mirror(struct shell *left, const struct car_spec *spec, const st
     if (half.x == 0) return;
     int n = level == NEAR ? 18 : level == MIDDLE ? 8 : 4;
     size_t first = left->points;
-    part_blob(left, at, half, 0.62, n, PAINT_COAT);
+    part_blob(left, at, half, 0.62, n, spec->mirror_coat);
     part_turn(left, first, at, 0, -8, 0);
     if (level == FAR) return;
     double flank = coach_half_width(coach, at.x, at.z - half.z);
@@ -197,6 +197,8 @@ static void add_fittings(struct shell *body, const struct coach *coach, const st
             if (spec->door[i].handle_x != 0) add_handle(&left, coach, spec->door[i].handle_x, spec->handle_z);
         add_plate(body, coach, 1, spec->plate_z.x);
         add_plate(body, coach, -1, spec->plate_z.y);
+        if (spec->badge_z.x > 0) part_blob(body, vec3(coach_end(coach, 1, 0, spec->badge_z.x), 0, spec->badge_z.x), vec3(0.012, 0.055, 0.034), 0.9, 16, BRIGHT);
+        if (spec->badge_z.y > 0) part_blob(body, vec3(coach_end(coach, -1, 0, spec->badge_z.y), 0, spec->badge_z.y), vec3(0.010, 0.05, 0.03), 0.9, 16, BRIGHT);
         if (spec->wiper_x != 0)
             for (int k = 0; k < 2; k++) {
                 double y = k ? -0.62 : 0.02;

@@ -34,7 +34,8 @@ struct car_spec {
     double cabin[3];                    /* front and rear end, floor */
     struct vec3 mirror;                 /* middle of the left one */
     struct vec3 mirror_half;
-    struct vec2 plate_z;                /* front, rear */
+    int mirror_coat;
+    struct vec2 plate_z, badge_z;       /* front, rear */
     double wiper_x, wiper_z;
     bool fin;                           /* an aerial */
     double roof_sign[4];                /* x, half length, half width, half height */

@@ -5,15 +5,14 @@
 /* The gaps of a bonnet from its front edge to the windscreen; of a lid or tailgate between two heights; and
  * between bumper and wing, from the wheel's arch (x, z) up to the lamp. */
 #define BONNET(nose, cowl, half) \
-    { LINE, MARK_TOP, GAP, 0.006, { { (nose), 0.0, 0.01 }, { (nose) - 0.06, 0.52, 0.2 }, { (nose) - 0.28, (half) - 0.05, 0.15 }, { (cowl), (half), 0.03 }, \
+    { LINE, MARK_TOP, GAP, 0.008, { { (nose), 0.0, 0.01 }, { (nose) - 0.06, 0.52, 0.2 }, { (nose) - 0.28, (half) - 0.05, 0.15 }, { (cowl), (half), 0.03 }, \
                                     { (cowl), -(half), 0.03 }, { (nose) - 0.28, 0.05 - (half), 0.15 }, { (nose) - 0.06, -0.52, 0.2 }, END }, false }
 #define LID(low, high, half) \
-    { LINE, MARK_REAR, GAP, 0.006, { { -(half), (low), 0.05 }, { (half), (low), 0.05 }, { (half) + 0.02, (high), 0.05 }, { -(half) - 0.02, (high), 0.05 }, END }, false }
+    { LINE, MARK_REAR, GAP, 0.008, { { -(half), (low), 0.05 }, { (half), (low), 0.05 }, { (half) + 0.02, (high), 0.05 }, { -(half) - 0.02, (high), 0.05 }, END }, false }
 #define BUMPER(x, z, out_x, top) \
-    { LINE, MARK_SIDE, GAP, 0.005, { { (x), (z), 0.01 }, { (out_x), (top), 0.02 }, { 2 * (out_x), (top), 0.01 }, { 2 * (out_x), -0.2, 0.01 }, { (x), -0.2, 0.01 }, END }, false }
+    { LINE, MARK_SIDE, GAP, 0.007, { { (x), (z), 0.01 }, { (out_x), (top), 0.02 }, { 2 * (out_x), (top), 0.01 }, { 2 * (out_x), -0.2, 0.01 }, { (x), -0.2, 0.01 }, END }, false }
 #define ACROSS(trace, kind, coat, depth, low, low_half, high, high_half, round) \
     { trace, kind, coat, depth, { { -(low_half), low, round }, { low_half, low, round }, { high_half, high, round }, { -(high_half), high, round }, END }, true }
-#define BADGE(kind, z) { FILL, kind, BRIGHT, 0, { { -0.055, (z) - 0.03, 0.05 }, { 0.055, (z) - 0.03, 0.05 }, { 0.055, (z) + 0.03, 0.05 }, { -0.055, (z) + 0.03, 0.05 }, END }, false }
 
 #define SEDAN_COACH \
     .coach = { .side = { { 2.26, 0.165, 0.10 }, { 2.40, 0.23, 0.08 }, { 2.443, 0.47, 0.16 }, { 2.38, 0.69, 0.10 }, { 2.25, 0.775, 0.14 }, \
@@ -29,13 +28,13 @@
     .window_sill = 0.018, .window_frame = 0.075, .window_round = 0.035, \
     .door = { { 1.00, -0.05, -0.19, -0.10, -0.02 }, { -0.196, -0.10, -1.13, 0.30, -1.00 } }, .door_bottom = 0.27, .door_frame = 0.045, .handle_z = 0.84, \
     .skirt_z = 0.20, .seat_x = { 0.0, -0.86 }, .seat_z = 0.47, .cabin = { 1.22, -1.80, 0.60 }, \
-    .mirror = { 0.66, 0.985, 0.99 }, .mirror_half = { 0.075, 0.105, 0.072 }, .plate_z = { 0.50, 0.62 }, .wiper_x = 1.08, .wiper_z = 1.015
+    .mirror = { 0.66, 0.985, 0.99 }, .mirror_half = { 0.075, 0.105, 0.072 }, .badge_z = { 0.72, 0 }, .plate_z = { 0.50, 0.62 }, .wiper_x = 1.08, .wiper_z = 1.015
 #define SEDAN_LAMPS \
     { LAMP_HOUSE, MARK_FRONT, REFLECTOR, 0.05, { { 0.47, 0.615, 0.04 }, { 0.80, 0.635, 0.05 }, { 1.08, 0.73, 0.03 }, { 0.98, 0.775, 0.04 }, { 0.66, 0.735, 0.06 }, { 0.47, 0.69, 0.03 }, END }, true }, \
     { FILL, MARK_REAR, REAR_LAMP, 0, { { 0.40, 0.80, 0.03 }, { 0.80, 0.79, 0.05 }, { 1.10, 0.87, 0.03 }, { 1.00, 0.935, 0.05 }, { 0.42, 0.92, 0.03 }, END }, true }, \
     ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.03, 0.615, 0.44, 0.670, 0.45, 0.02), ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.05, 0.245, 0.62, 0.43, 0.50, 0.05), \
     ACROSS(FILL, MARK_REAR, TRIM_COAT, 0, 0.1, 0.75, 0.36, 0.62, 0.06), BONNET(2.19, 1.10, 0.79), LID(0.72, 1.2, 0.62), BUMPER(1.87, 0.4, 1.98, 0.63), \
-    BUMPER(-1.78, 0.4, -1.95, 0.77), BADGE(MARK_FRONT, 0.72)
+    BUMPER(-1.78, 0.4, -1.95, 0.77)
 
 static const struct car_spec sedan = { SEDAN_COACH, .decal = { SEDAN_LAMPS }, .wheel = { 0.672, 0.215, 0.45, ALLOY_RIM, 5, RIM_COAT }, .fin = true };
 
@@ -60,9 +59,9 @@ static const struct car_spec hatchback = {
                { FILL, MARK_REAR, REAR_LAMP, 0, { { 0.46, 0.80, 0.03 }, { 0.86, 0.80, 0.05 }, { 1.05, 0.90, 0.03 }, { 0.95, 0.985, 0.05 }, { 0.48, 0.955, 0.03 }, END }, true },
                ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.03, 0.63, 0.43, 0.685, 0.44, 0.02), ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.05, 0.25, 0.62, 0.44, 0.50, 0.05),
                ACROSS(FILL, MARK_REAR, TRIM_COAT, 0, 0.1, 0.75, 0.37, 0.60, 0.06), BONNET(1.93, 0.95, 0.77), LID(0.66, 1.46, 0.66), BUMPER(1.67, 0.38, 1.76, 0.64),
-               BUMPER(-1.76, 0.38, -1.86, 0.78), BADGE(MARK_FRONT, 0.735), BADGE(MARK_REAR, 0.88) },
+               BUMPER(-1.76, 0.38, -1.86, 0.78) },
     .skirt_z = 0.20, .seat_x = { -0.08, -0.92 }, .seat_z = 0.50, .cabin = { 1.08, -2.4, 0.62 },
-    .mirror = { 0.56, 0.955, 1.00 }, .mirror_half = { 0.075, 0.105, 0.072 }, .plate_z = { 0.50, 0.60 }, .wiper_x = 0.95, .wiper_z = 1.03, .fin = false };
+    .mirror = { 0.56, 0.955, 1.00 }, .mirror_half = { 0.075, 0.105, 0.072 }, .badge_z = { 0.735, 0.88 }, .plate_z = { 0.50, 0.60 }, .wiper_x = 0.95, .wiper_z = 1.03, .fin = false };
 
 static const struct car_spec estate = {
     .coach = { .side = { { 2.20, 0.165, 0.10 }, { 2.34, 0.23, 0.08 }, { 2.385, 0.47, 0.15 }, { 2.33, 0.69, 0.10 }, { 2.21, 0.775, 0.14 },
@@ -81,9 +80,9 @@ static const struct car_spec estate = {
                { FILL, MARK_REAR, REAR_LAMP, 0, { { 0.36, 0.82, 0.03 }, { 0.80, 0.80, 0.05 }, { 1.12, 0.88, 0.03 }, { 1.02, 0.965, 0.05 }, { 0.38, 0.93, 0.03 }, END }, true },
                ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.03, 0.60, 0.41, 0.715, 0.42, 0.03), ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.05, 0.245, 0.64, 0.42, 0.52, 0.05),
                ACROSS(FILL, MARK_REAR, TRIM_COAT, 0, 0.1, 0.75, 0.37, 0.62, 0.06), BONNET(2.15, 1.07, 0.79), LID(0.66, 1.45, 0.68), BUMPER(1.84, 0.38, 1.96, 0.63),
-               BUMPER(-1.75, 0.38, -2.02, 0.78), BADGE(MARK_FRONT, 0.665), BADGE(MARK_REAR, 0.88) },
+               BUMPER(-1.75, 0.38, -2.02, 0.78) },
     .skirt_z = 0.20, .seat_x = { -0.02, -0.88 }, .seat_z = 0.49, .cabin = { 1.20, -2.6, 0.60 }, .rails = { 0.0, -1.75, 0.60 },
-    .mirror = { 0.64, 0.98, 0.985 }, .mirror_half = { 0.075, 0.105, 0.072 }, .plate_z = { 0.47, 0.62 }, .wiper_x = 1.06, .wiper_z = 1.01, .fin = true };
+    .mirror = { 0.64, 0.98, 0.985 }, .mirror_half = { 0.075, 0.105, 0.072 }, .badge_z = { 0.665, 0.88 }, .plate_z = { 0.47, 0.62 }, .wiper_x = 1.06, .wiper_z = 1.01, .fin = true };
 
 static const struct car_spec suv = {
     .coach = { .side = { { 2.10, 0.22, 0.10 }, { 2.25, 0.30, 0.08 }, { 2.30, 0.58, 0.14 }, { 2.27, 0.86, 0.10 }, { 2.16, 0.965, 0.12 },
@@ -102,9 +101,9 @@ static const struct car_spec suv = {
                { FILL, MARK_REAR, REAR_LAMP, 0, { { 0.42, 1.00, 0.03 }, { 0.80, 0.97, 0.05 }, { 1.10, 1.03, 0.03 }, { 1.02, 1.12, 0.05 }, { 0.44, 1.09, 0.03 }, END }, true },
                ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.035, 0.66, 0.40, 0.87, 0.43, 0.05), ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.04, 0.33, 0.66, 0.52, 0.56, 0.05),
                ACROSS(FILL, MARK_REAR, TRIM_COAT, 0, 0.1, 0.95, 0.50, 0.80, 0.06), BONNET(2.12, 1.04, 0.81), LID(0.64, 1.65, 0.70), BUMPER(1.75, 0.46, 1.86, 0.80),
-               BUMPER(-1.75, 0.46, -1.97, 0.95), BADGE(MARK_FRONT, 0.775), BADGE(MARK_REAR, 1.04) },
+               BUMPER(-1.75, 0.46, -1.97, 0.95) },
     .skirt_z = 0.36, .cladding = 0.055, .seat_x = { 0.05, -0.80 }, .seat_z = 0.66, .cabin = { 1.16, -2.6, 0.78 }, .rails = { 0.05, -1.70, 0.62 },
-    .mirror = { 0.66, 0.99, 1.15 }, .mirror_half = { 0.08, 0.11, 0.09 }, .plate_z = { 0.58, 0.77 }, .wiper_x = 1.03, .wiper_z = 1.165, .fin = true };
+    .mirror = { 0.66, 0.99, 1.15 }, .mirror_half = { 0.08, 0.11, 0.09 }, .badge_z = { 0.775, 1.04 }, .plate_z = { 0.58, 0.77 }, .wiper_x = 1.03, .wiper_z = 1.165, .fin = true };
 
 static const struct car_spec minivan = {
     .coach = { .side = { { 2.40, 0.175, 0.10 }, { 2.53, 0.24, 0.08 }, { 2.58, 0.50, 0.15 }, { 2.53, 0.76, 0.10 }, { 2.40, 0.865, 0.14 },
@@ -124,9 +123,9 @@ static const struct car_spec minivan = {
                ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.03, 0.67, 0.46, 0.76, 0.47, 0.03), ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.05, 0.26, 0.70, 0.48, 0.58, 0.05),
                { FILL, MARK_SIDE, TRIM_COAT, 0, { { -1.25, 0.965, 0.004 }, { -2.20, 0.985, 0.004 }, { -2.20, 1.010, 0.004 }, { -1.25, 0.990, 0.004 }, END }, false },
                ACROSS(FILL, MARK_REAR, TRIM_COAT, 0, 0.1, 0.85, 0.37, 0.70, 0.06), BONNET(2.34, 1.52, 0.82), LID(0.62, 1.70, 0.74), BUMPER(1.98, 0.4, 2.10, 0.70),
-               BUMPER(-1.84, 0.4, -2.12, 0.88), BADGE(MARK_FRONT, 0.715), BADGE(MARK_REAR, 1.0) },
+               BUMPER(-1.84, 0.4, -2.12, 0.88) },
     .skirt_z = 0.21, .seat_x = { 0.32, -0.60, -1.50 }, .seat_z = 0.58, .cabin = { 1.62, -2.9, 0.70 }, .rails = { 0.2, -1.9, 0.70 },
-    .mirror = { 1.02, 1.07, 1.07 }, .mirror_half = { 0.08, 0.115, 0.08 }, .plate_z = { 0.54, 0.70 }, .wiper_x = 1.50, .wiper_z = 1.115, .fin = true };
+    .mirror = { 1.02, 1.07, 1.07 }, .mirror_half = { 0.08, 0.115, 0.08 }, .badge_z = { 0.715, 1.0 }, .plate_z = { 0.54, 0.70 }, .wiper_x = 1.50, .wiper_z = 1.115, .fin = true };
 
 static const struct car_spec van = {
     .coach = { .side = { { 2.80, 0.22, 0.10 }, { 2.93, 0.30, 0.08 }, { 2.99, 0.58, 0.12 }, { 2.96, 0.90, 0.10 }, { 2.87, 1.06, 0.12 },
@@ -148,9 +147,9 @@ static const struct car_spec van = {
                ACROSS(FILL, MARK_REAR, TRIM_COAT, 0, 0.1, 1.05, 0.66, 1.02, 0.03), { LINE, MARK_REAR, GAP, 0.008, { { 0.0, 0.68, 0.01 }, { 0.88, 0.68, 0.05 }, { 0.86, 2.42, 0.05 }, { 0.0, 2.42, 0.01 }, END }, false },
                { FILL, MARK_SIDE, TRIM_COAT, 0, { { 1.38, 0.66, 0.03 }, { -1.18, 0.66, 0.03 }, { -1.18, 0.78, 0.03 }, { 1.38, 0.78, 0.03 }, END }, false },
                { FILL, MARK_SIDE, TRIM_COAT, 0, { { -0.62, 1.22, 0.004 }, { -2.60, 1.22, 0.004 }, { -2.60, 1.25, 0.004 }, { -0.62, 1.25, 0.004 }, END }, false },
-               BONNET(2.88, 2.10, 0.80), BADGE(MARK_FRONT, 1.02), BUMPER(2.41, 0.5, 2.50, 0.86) },
+               BONNET(2.88, 2.10, 0.80), BUMPER(2.41, 0.5, 2.50, 0.86) },
     .skirt_z = 0.33, .seat_x = { 0.95 }, .seat_z = 0.86, .cabin = { 2.22, 0.55, 0.95 },
-    .mirror = { 1.66, 1.16, 1.42 }, .mirror_half = { 0.09, 0.09, 0.19 }, .plate_z = { 0.50, 0.80 }, .wiper_x = 2.10, .wiper_z = 1.40, .fin = false };
+    .mirror = { 1.66, 1.16, 1.42 }, .mirror_coat = TRIM_COAT, .mirror_half = { 0.09, 0.09, 0.19 }, .badge_z = { 1.02, 0 }, .plate_z = { 0.50, 0.80 }, .wiper_x = 2.10, .wiper_z = 1.40, .fin = false };
 
 static const struct car_spec pickup = {
     .coach = { .side = { { 2.72, 0.34, 0.10 }, { 2.88, 0.42, 0.06 }, { 2.94, 0.58, 0.08 }, { 2.92, 0.82, 0.08 }, { 2.89, 1.12, 0.08 }, { 2.81, 1.20, 0.10 },

@@ -10,7 +10,7 @@
  * Src: Axalta, Global Automotive Color Popularity Report 2022: white 34 (20 solid, 14 pearl), black 21, gray 19, silver 8, blue 8,
  * red 5, green 1; the rest are browns and beiges, mostly. */
 static const struct paint_share car_colors[] = {
-    { "#e4e5e4", 20 }, { "#dbdad4", 14 }, { "#121314", 14 }, { "#1a1c20", 7 }, { "#5a5d61", 11 }, { "#787c80", 8 }, { "#a9adb0", 8 },
+    { "#dcdddc", 20 }, { "#d4d3cd", 14 }, { "#121314", 14 }, { "#1a1c20", 7 }, { "#5a5d61", 11 }, { "#787c80", 8 }, { "#a9adb0", 8 },
     { "#1f3a6b", 4 }, { "#2f5a86", 2 }, { "#16233f", 2 }, { "#7d1518", 3 }, { "#a11c1d", 2 }, { "#2e4437", 1 }, { "#6b5744", 2 }, { "#b3a68f", 2 } };
 
 static bool write_one(struct listing *listing, const struct vehicle_spec *v, const char *folder, struct error *err)

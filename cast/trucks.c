@@ -72,7 +72,7 @@ static const struct car_spec box_cab = {
     .decal = { { FILL, MARK_FRONT, LAMP, 0, { { 0.62, 0.70, 0.03 }, { 0.92, 0.70, 0.05 }, { 1.04, 0.72, 0.03 }, { 1.02, 0.86, 0.03 }, { 0.62, 0.86, 0.03 }, END }, true },
                ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.03, 0.90, 0.72, 1.08, 0.72, 0.03), ACROSS(FILL, MARK_FRONT, TRIM_COAT, 0, 0.40, 0.70, 0.62, 0.74, 0.04) },
     .skirt_z = 0.56, .seat_x = { 2.35 }, .seat_z = 1.02, .cabin = { 3.6, 1.84, 1.05 },
-    .mirror = { 3.22, 1.16, 1.62 }, .mirror_half = { 0.05, 0.09, 0.22 }, .plate_z = { 0.52, 0 }, .wiper_x = 3.44, .wiper_z = 1.35 };
+    .mirror = { 3.22, 1.16, 1.62 }, .mirror_coat = TRIM_COAT, .mirror_half = { 0.05, 0.09, 0.22 }, .plate_z = { 0.52, 0 }, .wiper_x = 3.44, .wiper_z = 1.35 };
 
 static void make_box_truck(struct vehicle *v, const struct vehicle_spec *spec, enum level level)
 {
@@ -120,9 +120,9 @@ static const struct car_spec ambulance_cab = {
     .decal = { { LAMP_HOUSE, MARK_FRONT, REFLECTOR, 0.05, { { 0.58, 0.90, 0.04 }, { 0.84, 0.90, 0.05 }, { 1.10, 1.00, 0.04 }, { 1.06, 1.17, 0.05 }, { 0.80, 1.11, 0.06 }, { 0.58, 1.03, 0.03 }, END }, true },
                ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.035, 0.76, 0.50, 1.02, 0.52, 0.05), ACROSS(FILL, MARK_FRONT, BRIGHT, 0, 0.46, 1.3, 0.68, 1.3, 0.05),
                { FILL, MARK_SIDE, ORANGE_PANEL, 0, { { 1.92, 0.98, 0.01 }, { 0.7, 0.98, 0.01 }, { 0.7, 1.20, 0.01 }, { 2.5, 1.20, 0.01 }, END }, true },
-               { LINE, MARK_TOP, GAP, 0.006, { { 3.27, 0.0, 0.01 }, { 3.2, 0.52, 0.2 }, { 2.9, 0.75, 0.15 }, { 2.44, 0.80, 0.03 }, { 2.44, -0.80, 0.03 }, { 2.9, -0.75, 0.15 }, { 3.2, -0.52, 0.2 }, END }, false } },
+               { LINE, MARK_TOP, GAP, 0.008, { { 3.27, 0.0, 0.01 }, { 3.2, 0.52, 0.2 }, { 2.9, 0.75, 0.15 }, { 2.44, 0.80, 0.03 }, { 2.44, -0.80, 0.03 }, { 2.9, -0.75, 0.15 }, { 3.2, -0.52, 0.2 }, END }, false } },
     .skirt_z = 0.48, .seat_x = { 1.35 }, .seat_z = 0.92, .cabin = { 2.55, 0.86, 0.98 },
-    .mirror = { 2.02, 1.18, 1.46 }, .mirror_half = { 0.08, 0.10, 0.17 }, .plate_z = { 0.58, 0 }, .wiper_x = 2.42, .wiper_z = 1.42 };
+    .mirror = { 2.02, 1.18, 1.46 }, .mirror_coat = TRIM_COAT, .mirror_half = { 0.08, 0.10, 0.17 }, .plate_z = { 0.58, 0 }, .wiper_x = 2.42, .wiper_z = 1.42 };
 
 static void make_ambulance(struct vehicle *v, const struct vehicle_spec *spec, enum level level)
 {
@@ -190,7 +190,7 @@ static const struct car_spec fire_cab = {
                ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.03, 0.92, 0.58, 1.44, 0.58, 0.05),
                { FILL, MARK_SIDE, WHITE_PANEL, 0, { { 9, 1.36, 0.01 }, { 1.7, 1.36, 0.01 }, { 1.7, 1.52, 0.01 }, { 9, 1.52, 0.01 }, END }, true } },
     .skirt_z = 0.60, .seat_x = { 3.75, 2.35 }, .seat_z = 1.28, .cabin = { 4.9, 1.82, 1.30 },
-    .mirror = { 4.50, 1.42, 2.05 }, .mirror_half = { 0.07, 0.10, 0.24 }, .plate_z = { 0, 0 }, .wiper_x = 4.70, .wiper_z = 1.66 };
+    .mirror = { 4.50, 1.42, 2.05 }, .mirror_coat = TRIM_COAT, .mirror_half = { 0.07, 0.10, 0.24 }, .plate_z = { 0, 0 }, .wiper_x = 4.70, .wiper_z = 1.66 };
 
 static void add_ladder(struct shell *s, double y, double z, double x0, double x1, enum level level)
 {
@@ -264,7 +264,7 @@ static const struct car_spec dump_cab = {
     .decal = { { FILL, MARK_FRONT, LAMP, 0, { { 0.66, 1.10, 0.03 }, { 0.96, 1.12, 0.05 }, { 1.10, 1.16, 0.03 }, { 1.08, 1.34, 0.03 }, { 0.68, 1.32, 0.03 }, END }, true },
                ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.04, 0.98, 0.50, 1.60, 0.46, 0.08), ACROSS(FILL, MARK_FRONT, BRIGHT, 0, 0.64, 0.85, 0.86, 0.85, 0.03) },
     .skirt_z = 0.80, .seat_x = { 1.55 }, .seat_z = 1.45, .cabin = { 2.66, 1.13, 1.55 },
-    .mirror = { 2.42, 1.26, 2.22 }, .mirror_half = { 0.06, 0.10, 0.22 }, .plate_z = { 0.76, 0 }, .wiper_x = 2.52, .wiper_z = 2.0 };
+    .mirror = { 2.42, 1.26, 2.22 }, .mirror_coat = TRIM_COAT, .mirror_half = { 0.06, 0.10, 0.22 }, .plate_z = { 0.76, 0 }, .wiper_x = 2.52, .wiper_z = 2.0 };
 
 static void make_dump_truck(struct vehicle *v, const struct vehicle_spec *spec, enum level level)
 {
@@ -320,7 +320,7 @@ static const struct car_spec bus_body = {
                { FILL, MARK_SIDE, WHITE_PANEL, 0, { { 9, 2.52, 0.01 }, { -9, 2.52, 0.01 }, { -9, 4, 0.01 }, { 9, 4, 0.01 }, END }, true },
                { FILL, MARK_REAR, REAR_LAMP, 0, { { 0.98, 0.86, 0.03 }, { 1.16, 0.86, 0.03 }, { 1.16, 1.52, 0.03 }, { 0.98, 1.52, 0.03 }, END }, true },
                ACROSS(SINK, MARK_REAR, TRIM_COAT, 0.02, 0.95, 0.75, 1.60, 0.75, 0.05), ACROSS(FILL, MARK_FRONT, TRIM_COAT, 0, 0.2, 1.7, 0.56, 1.7, 0.05) },
-    .skirt_z = 0.40, .cabin = { 6.3, -6.3, 1.0 }, .mirror = { 6.02, 1.36, 2.05 }, .mirror_half = { 0.07, 0.10, 0.20 }, .plate_z = { 0.50, 0.78 }, .wiper_x = 6.09, .wiper_z = 1.24 };
+    .skirt_z = 0.40, .cabin = { 6.3, -6.3, 1.0 }, .mirror = { 6.02, 1.36, 2.05 }, .mirror_coat = TRIM_COAT, .mirror_half = { 0.07, 0.10, 0.20 }, .plate_z = { 0.50, 0.78 }, .wiper_x = 6.09, .wiper_z = 1.24 };
 
 static void make_bus(struct vehicle *v, const struct vehicle_spec *spec, enum level level)
 {
