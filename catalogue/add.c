@@ -25,6 +25,8 @@
 #define CONTACT_LITTLE 0.3
 #define TRIANGLES_MANY 500000
 #define GROUND_OFF_M 0.02
+/* Not called as the model is: its own textures may be. */
+#define PICTURE "four-sides.png"
 #define REFUSED_FOLDER "out/models"
 
 struct adding {
@@ -234,12 +236,11 @@ static bool write_picture(const struct adding *a, const char *path, struct error
 static bool write_entry(const struct adding *a, const char *folder, struct error *err)
 {
     const struct vec3 size = vec3_sub(a->model->max_m, a->model->min_m);
-    char *path = string_format("%s/catalogue.json", folder), *absolute = realpath(a->options->file, NULL), picture[80];
-    snprintf(picture, sizeof picture, "%s.png", a->name);
+    char *path = string_format("%s/catalogue.json", folder), *absolute = realpath(a->options->file, NULL);
     json_t *entry = json_pack("{s:s, s:s, s:s, s:f, s:s, s:s, s:f, s:f, s:f, s:[i], s:s, s:s}", "name", a->name, "class",
                               class_info(a->guess.class_)->name, "file", path_name(a->options->file), "unit_m", a->guess.unit_m, "up",
                               axis_name(a->guess.up), "front", axis_name(a->guess.front), "length_m", size.x, "width_m", size.y, "height_m", size.z,
-                              "triangles", (int)a->inspection.triangles, "source", absolute ? absolute : a->options->file, "picture", picture);
+                              "triangles", (int)a->inspection.triangles, "source", absolute ? absolute : a->options->file, "picture", PICTURE);
     if (entry && a->options->license) json_object_set_new(entry, "license", json_string(a->options->license));
     json_t *root = entry ? json_pack("{s:[o]}", "models", entry) : NULL;
     char *text = root ? json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) : NULL;
@@ -265,11 +266,17 @@ static bool check_copy(const struct adding *a, const char *folder, struct error 
     return ok;
 }
 
+static bool picture_is_free(const struct adding *a, const char *picture, struct error *err)
+{
+    return !file_exists(picture) || error_at(err, ERR_INPUT, a->options->file, 0, 0, "has a texture called \"" PICTURE "\", "
+                                             "as the picture of what was added is: another name would be right");
+}
+
 static bool keep(const struct adding *a, struct error *err)
 {
     struct parts parts = { 0 };
     char *folder = string_format("%s/%s", a->options->folder, a->name), *part = string_format("%s/.%s.part", a->options->folder, a->name);
-    char *picture = part ? string_format("%s/%s.png", part, a->name) : NULL;
+    char *picture = part ? string_format("%s/" PICTURE, part) : NULL;
     bool ok = folder && part && picture ? true : error_set(err, ERR_MEMORY, "no memory for a path");
     char *entry = ok ? string_format("%s/catalogue.json", folder) : NULL;
     if (ok && entry && file_exists(entry) && !a->options->replace)
@@ -278,10 +285,10 @@ static bool keep(const struct adding *a, struct error *err)
     if (ok) {
         folder_remove(part);
         ok = folder_make(part, err) && parts_find(&parts, a->model, err) && parts_copy(&parts, part, err) && check_copy(a, part, err) &&
-             write_entry(a, part, err) && write_picture(a, picture, err) && folder_commit(part, folder, a->options->replace, err);
+             picture_is_free(a, picture, err) && write_entry(a, part, err) && write_picture(a, picture, err) && folder_commit(part, folder, a->options->replace, err);
         if (!ok) folder_remove(part);
     }
-    if (ok) printf("picture: %s/%s.png\nadded: \"model: %s\" in a scene\n", folder, a->name, a->name);
+    if (ok) printf("picture: %s/" PICTURE "\nadded: \"model: %s\" in a scene\n", folder, a->name);
     parts_release(&parts);
     free(picture);
     free(part);

@@ -186,11 +186,23 @@ static void ground_radiance(double rgb[3], const struct generator *g)
     for (int c = 0; c < 3; c++) rgb[c] = g->scene->ground_albedo[c] * g->light.irradiance[c];
 }
 
+/* The height tells whether foot and tip are those of one shadow. */
+static char *north_text(const struct scene *s)
+{
+    if (!(s->north_shadow_m > 0)) return string_format("%s", "");
+    return string_format("north: north_deg %.1f, by a shadow of %.2f m: what casts it is %.2f m high\n", fmod(s->north_rad * DEG + 720, 360),
+                         s->north_shadow_m, s->north_height_m);
+}
+
 char *generator_light_text(const struct generator *g)
 {
     double radiance[3];
     ground_radiance(radiance, g);
-    return g->estimated ? light_estimate_text(&g->estimate, radiance) : string_format("%s", "");
+    char *north = north_text(g->scene), *light = g->estimated ? light_estimate_text(&g->estimate, radiance) : string_format("%s", "");
+    char *text = north && light ? string_format("%s%s", north, light) : NULL;
+    free(north);
+    free(light);
+    return text;
 }
 
 /* --- photographs --- */
@@ -369,6 +381,9 @@ bool generator_write_run(const struct generator *g, const struct frame_result *f
         json_object_set_new(run, "sun_elevation_deg", json_real(asin(d.z) * DEG));
         json_object_set_new(run, "sun_azimuth_deg", json_real(fmod((atan2(d.x, d.y) + s->north_rad) * DEG + 720, 360)));
     }
+    if (run && s->north_shadow_m > 0)
+        json_object_set_new(run, "north", json_pack("{s:f, s:f, s:f}", "north_deg", fmod(s->north_rad * DEG + 720, 360), "shadow_m",
+                                                    s->north_shadow_m, "height_m", s->north_height_m));
     if (run && g->estimated) {
         double radiance[3];
         ground_radiance(radiance, g);

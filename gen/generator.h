@@ -30,7 +30,7 @@ void generator_frame_name(char name[FRAME_NAME_SIZE], const struct generator *ge
 size_t generator_warning_count(const struct generator *generator);
 const char *generator_warning(const struct generator *generator, size_t i);
 
-/* What was found of the light in the photographs, a line each with a newline; empty where the scene gives it. The caller
+/* What was found of north and light in the photographs, a line each with a newline; empty where the scene gives both. The caller
  * frees; NULL when memory ends. */
 char *generator_light_text(const struct generator *generator);
 

@@ -144,7 +144,7 @@ static double pressure_of(const struct scene *s)
 }
 
 /* The haziest sky is as bright as the sun and more, the clearest hardly a tenth: whose proportion is it? */
-static double turbidity_of(const struct light_estimate *e, const struct scene *s, struct vec3 sun)
+static double turbidity_of(double *beyond, const struct light_estimate *e, const struct scene *s, struct vec3 sun)
 {
     static const double weight[3] = { 0.2126, 0.7152, 0.0722 };
     double best = TURBIDITY_LEAST, least = INFINITY, wanted = 0;
@@ -158,9 +158,10 @@ static double turbidity_of(const struct light_estimate *e, const struct scene *s
             sky += weight[c] * d.sky[c];
             direct += weight[c] * d.sun[c] * sun.z;
         }
-        double off = fabs(sky / (sky + direct) - wanted);
-        if (off < least) {
-            least = off;
+        double off = wanted - sky / (sky + direct);
+        if (fabs(off) < least) {
+            least = fabs(off);
+            *beyond = off;
             best = t;
         }
     }
@@ -214,7 +215,7 @@ bool light_estimate(struct light_estimate *estimate, const struct stage *stage, 
     if (ok && e.clear && !has_sun) ok = sun_is_wanted(&e, s, err);
     if (ok && e.clear) {
         open_up(&e);
-        e.turbidity = turbidity_of(&e, s, sun);
+        e.turbidity = turbidity_of(&e.beyond, &e, s, sun);
     }
     e.mesh = g.by_place && !g.mark_count;
     if (ok && e.clear && e.mesh) ok = check_sun(&e, &g, stage, sun, err);

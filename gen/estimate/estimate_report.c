@@ -41,6 +41,19 @@ static char *shade_text(const struct light_estimate *e)
     return text;
 }
 
+/* Shares that no clear sky has come from pairs that are no shadows. */
+static char *doubt_text(const struct light_estimate *e)
+{
+    static const double doubtful = 0.04;
+    if (!e->clear || !(fabs(e->beyond) > doubtful)) return string_format("%s", "");
+    const char *what = e->from == SHADE_FROM_MARKS ? "look at the pairs under light.shadows: " : "";
+    return e->beyond > 0
+        ? string_format("light: warning: the shade is brighter than any clear sky makes it at this height of the sun, by %.2f of the light in the "
+                        "open: %sone side may be in the sun like the other, or the sky is not clear\n", e->beyond, what)
+        : string_format("light: warning: the shade is darker than any clear sky makes it at this height of the sun, by %.2f of the light in the "
+                        "open: %sthe two sides may be of different material, or hardly see the sky\n", -e->beyond, what);
+}
+
 static char *clouds_text(const struct light_estimate *e)
 {
     return string_format("light: overcast, sure to %.0f %%: %s; where there is sun, mark a pair of pixels under light.shadows, or say "
@@ -76,8 +89,10 @@ static char *exposure_text(const struct light_estimate *e, const double radiance
 
 char *light_estimate_text(const struct light_estimate *e, const double ground_radiance[3])
 {
-    char *light = e->clear ? shade_text(e) : clouds_text(e), *check = check_text(e), *exposure = exposure_text(e, ground_radiance);
-    char *text = light && check && exposure ? string_format("%s%s%s", light, check, exposure) : NULL;
+    char *light = e->clear ? shade_text(e) : clouds_text(e), *doubt = doubt_text(e), *check = check_text(e);
+    char *exposure = exposure_text(e, ground_radiance);
+    char *text = light && doubt && check && exposure ? string_format("%s%s%s%s", light, doubt, check, exposure) : NULL;
+    free(doubt);
     free(light);
     free(check);
     free(exposure);
@@ -101,6 +116,7 @@ json_t *light_estimate_json(const struct light_estimate *e, const double radianc
         json_object_set_new(json, "sky_share", json_pack("[f,f,f]", e->sky_share[0], e->sky_share[1], e->sky_share[2]));
         json_object_set_new(json, "sky_share_sigma", json_pack("[f,f,f]", e->sky_share_sigma[0], e->sky_share_sigma[1], e->sky_share_sigma[2]));
         json_object_set_new(json, "turbidity", json_real(e->turbidity));
+        json_object_set_new(json, "beyond_clear_skies", json_real(e->beyond));
     }
     if (e->clear && e->has_check) {
         const struct sun_check *c = &e->check;

@@ -151,6 +151,8 @@ struct scene {
     bool has_time;
     struct utc_time time_utc;  /* at time_s 0 of the shots */
     double north_rad;          /* azimuth of the world's +y axis, clockwise from true north */
+    double north_shadow_m;     /* length of the marked shadow that told it, else 0 */
+    double north_height_m;     /* of what casts it, by the sun's elevation */
     enum sun_kind sun;         /* BY_TIME: place and time are there; IN_MAP: the map shows whether there is one.
                                   NONE under clouds, and in a map that is taken as it is; not under a clear sky; with AUTO:
                                   where it stands is not known */

@@ -36,6 +36,8 @@ bool scene_read_north(const struct reading *r, const struct yaml_node *root)
     double length = hypot(tip.x - foot.x, tip.y - foot.y);
     if (sun.elevation_rad <= 0) return FAIL(r, node, "north: at that time the sun is below the horizon: nothing casts a shadow");
     if (length < 0.05) return FAIL(r, node, "north: foot and tip are %.2f m apart: too near each other to tell a direction", length);
+    s->north_shadow_m = length;
+    s->north_height_m = length * tan(sun.elevation_rad);
     s->north_rad = sun.azimuth_rad - atan2(foot.x - tip.x, foot.y - tip.y);
     return true;
 }

@@ -44,7 +44,8 @@ check "its textures" says '^  textures 1, '
 check "its surface" says ' 0.0 % of its edges are open, 0.0 % of what is seen of it looks inward'
 check "with the files that belong to it, wherever they lay" \
     test -f "$mine/my-car/My Car.obj" -a -f "$mine/my-car/car.mtl" -a -f "$mine/my-car/paint.png"
-check "and a picture" test -s "$mine/my-car/my-car.png"
+check "and a picture" test -s "$mine/my-car/four-sides.png"
+check "that leaves its textures alone" cmp "$top_srcdir/tests/input/street.png" "$mine/my-car/paint.png"
 check "nothing else is left" is "$(ls -A "$mine") $(ls -A "$mine/my-car" | wc -l)" 'my-car 5'
 rm -r model/materials
 run "$staffage" models

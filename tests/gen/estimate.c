@@ -174,7 +174,12 @@ static void marks(void)
     scene.mark_count = 2;
     struct light_estimate e = estimate(&scene, NULL);
     is_near(&e, m.ratio, 0.08, "marked");
-    OK(e.clear && e.from == SHADE_FROM_MARKS && e.shade.edges == 2, "two pairs, and no doubt");
+    OK(e.clear && e.from == SHADE_FROM_MARKS && e.shade.edges == 2 && fabs(e.beyond) < 0.04, "two pairs, and no doubt");
+    struct made bright = { .ratio = { 0.93, 0.94, 0.95 }, .balance = { 1, 1, 1 }, .shade = street_shade };
+    make(&bright);
+    e = estimate(&scene, NULL);
+    OK(e.beyond > 0.1, "shade that no clear sky makes is told: by %.2f of the light too bright", e.beyond);
+    make(&m);
     mark[1].shade_px = mark[1].lit_px;
     mark[1].lit_px = (struct vec2){ 570, 80 };
     OK(!estimate_in(&e, &scene, NULL, &err) && err.line == 13 && strstr(err.text, "not darker"), "the wrong way round: %s", err.text);

@@ -28,6 +28,8 @@ static struct scene *read_scene(const char *more, struct error *err)
 #define PITTSBURGH "place: {latitude_deg: 40.44694, longitude_deg: -79.94902, height_m: 280}\n"
 
 /* From above, with +y up in the picture, a pixel is half a metre: a shadow from the middle to (x, y) m. */
+static double height_m; /* of what casts it */
+
 static double north_of(double x_m, double y_m)
 {
     struct error err = ERROR_NONE;
@@ -35,6 +37,7 @@ static double north_of(double x_m, double y_m)
     struct scene *scene = read_scene(more, &err);
     double north = scene ? fmod(scene->north_rad * DEG + 720, 360) : NAN;
     if (!scene) OK(false, "%s: %s", more, err.text);
+    height_m = scene ? scene->north_height_m : NAN;
     scene_destroy(scene);
     free(more);
     return north;
@@ -53,6 +56,7 @@ int main(void)
     int file = mkstemp(path);
     if (file >= 0) close(file);
     NEAR(north_of(0, 5), 298.6, 0.1, "a shadow along +y: it points to 298.6 deg");
+    NEAR(height_m, 5 * 1.1918, 0.02, "5 m long at 50.0 deg: something 5.96 m high casts it");
     NEAR(north_of(5, 0), 208.6, 0.1, "one along +x: +y is 90 deg before it");
     double turn = 298.6 / DEG;
     NEAR(fmod(north_of(5 * sin(turn), 5 * cos(turn)) + 180, 360), 180, 0.1, "one where it is in a world of true north");
