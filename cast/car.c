@@ -79,6 +79,8 @@ static void draw_glass(struct shell *s, const struct form *solid, const struct m
     shell_paint(s, &form, -10, -seal, -1, coat);
 }
 
+static bool adjoin(const struct window_spec *a, const struct window_spec *b) { return a->kind && b->kind && a->rear_x - b->front_x < 0.25; }
+
 static void draw_windows(struct shell *s, const struct coach *coach, const struct form *solid, const struct car_spec *spec, enum level level)
 {
     for (int i = 0; i < 2; i++) {
@@ -87,20 +89,21 @@ static void draw_windows(struct shell *s, const struct coach *coach, const struc
         struct mark mark = mark_pane(coach, g->low, g->high, g->pillar, g->round);
         draw_glass(s, solid, &mark, g->kind, level);
     }
-    /* Between neighbours lies a pillar of black. */
-    for (int i = 0; i + 1 < WINDOWS && level != FAR; i++) {
+    /* Between neighbours lies a pillar of black; seen from farther off they are one. */
+    for (int i = 0; i + 1 < WINDOWS && level == NEAR; i++) {
         const struct window_spec *a = &spec->window[i], *b = &spec->window[i + 1];
-        if (!a->kind || !b->kind || a->rear_x - b->front_x > 0.25) continue;
+        if (!adjoin(a, b)) continue;
         struct mark mark = mark_window(coach, spec->window_sill, spec->window_frame, spec->window_top, a->rear_x + 0.02, a->rear_lean, b->front_x - 0.02, b->front_lean, 0.002);
         struct form form = mark_form(&mark);
         shell_cut(s, solid, &form, 0);
         shell_paint(s, &form, -10, 0, PAINT_COAT, BLACK_PANEL);
     }
     for (int i = 0; i < WINDOWS; i++) {
-        const struct window_spec *w = &spec->window[i];
+        const struct window_spec *w = &spec->window[i], *last = w;
         if (!w->kind) continue;
-        struct mark mark = mark_window(coach, spec->window_sill, spec->window_frame, spec->window_top, w->front_x, w->front_lean, w->rear_x, w->rear_lean, spec->window_round);
-        draw_glass(s, solid, &mark, w->kind, level);
+        for (; level != NEAR && i + 1 < WINDOWS && adjoin(last, last + 1); last++) i++;
+        struct mark mark = mark_window(coach, spec->window_sill, spec->window_frame, spec->window_top, w->front_x, w->front_lean, last->rear_x, last->rear_lean, spec->window_round);
+        draw_glass(s, solid, &mark, last->kind, level);
     }
 }
 
@@ -258,7 +261,7 @@ void car_body(struct shell *body, const struct car_spec *spec, enum level level)
     for (int a = 0; a < 2 && spec->cladding > 0; a++) {
         struct mark wheel = mark_wheel(&coach, a, spec->arch_inner_y, spec->cladding);
         struct form form = mark_form(&wheel);
-        if (level != FAR) shell_cut(&s, &solid, &form, 0);
+        shell_cut(&s, &solid, &form, 0);
         shell_paint(&s, &form, -10, 0, -1, TRIM_COAT);
     }
     if (spec->bed[2] > 0) {
