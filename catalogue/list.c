@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SHEET_COLUMNS 5
+#define SHEET_COLUMNS 6
 
 static void size_text(char text[64], const struct catalogue_model *m)
 {

@@ -45,9 +45,9 @@ static json_t *shot_of(const struct sitter *s, enum side side, double x)
     double length = s->size_m[0], width = s->size_m[1], height = s->size_m[2], above = views[side].above_deg * M_PI / 180;
     double facing = side == SIDE_LEFT ? length : side == SIDE_ABOVE ? 0.75 * length + 0.65 * width : width;
     double deep = side == SIDE_LEFT ? width : length;
-    /* What is to fill the picture, 4 to 3, seen from above; and half of what stands nearer than the middle. */
+    /* What is to fill the picture, 4 to 3, seen from above; and what of it stands nearer than the middle. */
     double half = fmax(facing / 2, (height * cos(above) + deep * sin(above)) / 2 * 4 / 3 * 1.08) * 1.04;
-    double range = half / tan(VIEW_DEG * M_PI / 360) + deep / 2;
+    double range = half / tan(VIEW_DEG * M_PI / 360) + 0.3 * deep;
     return json_pack("{s:s, s:s, s:{s:{s:[fff], s:[fff]}}}", "photograph", "ground.png", "camera", "long", "pose", "look_at", "position_m",
                      x, -range * cos(above), height / 2 + range * sin(above), "target_m", x, 0.0, 0.48 * height);
 }

@@ -18,14 +18,15 @@ bool sheet_make(struct image *sheet, const struct image *pictures, const char *c
         if (!image_init(&made, across * width, down * (height + line), 3, PIXEL_U8, err)) return false;
         cv::Mat all = mat_over(&made);
         all.setTo(cv::Scalar(255, 255, 255));
+        int widest = 1, below = 0;
+        for (size_t i = 0; i < count; i++)
+            widest = std::max(widest, cv::getTextSize(captions[i], cv::FONT_HERSHEY_SIMPLEX, 1, 1, &below).width);
+        const double scale = std::min(line / 34.0, (width - line / 2.0) / widest);
         for (int i = 0; i < (int)count; i++) {
             cv::Rect at(i % across * width, i / across * (height + line), width, height);
             mat_over(&pictures[i]).copyTo(all(at));
-            int below = 0;
-            const cv::Size whole = cv::getTextSize(captions[i], cv::FONT_HERSHEY_SIMPLEX, 1, 1, &below);
-            const double scale = std::min(line / 34.0, (width - line / 2.0) / whole.width);
             cv::putText(all, captions[i], cv::Point(at.x + line / 4, at.y + height + line * 7 / 10), cv::FONT_HERSHEY_SIMPLEX, scale,
-                        cv::Scalar(30, 30, 30), scale > 0.8 ? 2 : 1, cv::LINE_AA);
+                        cv::Scalar(30, 30, 30), 1, cv::LINE_AA);
         }
         return true;
     });
