@@ -344,4 +344,5 @@ tests_bench_resize_bench_SOURCES = %D%/bench/resize.c
 nodist_EXTRA_tests_bench_resize_bench_SOURCES = dummy.cxx
 tests_bench_resize_bench_LDADD = $(LIB_LIBS)
 
-TESTS += $(check_PROGRAMS) $(dist_check_SCRIPTS)
+# Scripts first: some take minutes, and what is short fills up the other cores beside them.
+TESTS += $(dist_check_SCRIPTS) $(check_PROGRAMS)

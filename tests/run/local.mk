@@ -32,7 +32,7 @@ tests_gen_makefile_test_SOURCES = tests/gen/makefile.c tests/tap.h
 nodist_EXTRA_tests_gen_makefile_test_SOURCES = dummy.cxx
 tests_gen_makefile_test_LDADD = $(GEN_LIBS)
 
-dist_check_SCRIPTS += tests/run.sh tests/pipeline.sh tests/flight.sh tests/man.sh tests/masks.sh tests/proving.sh
+dist_check_SCRIPTS += tests/flight.sh tests/run.sh tests/pipeline.sh tests/man.sh tests/masks.sh tests/proving.sh
 
 EXTRA_DIST += tests/bench.sh tests/bench/craig-1000x750-4.yaml tests/bench/craig-2000x1500-15.yaml \
   tests/bench/labels/craig-3840x2880-20.yaml
