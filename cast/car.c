@@ -160,7 +160,7 @@ static void add_mirror(struct shell *left, const struct car_spec *spec, const st
 {
     struct vec3 at = spec->mirror, half = spec->mirror_half;
     if (half.x == 0) return;
-    int n = level == NEAR ? 18 : level == MIDDLE ? 8 : 4;
+    int n = level == NEAR ? 18 : 8;
     size_t first = left->points;
     part_blob(left, at, half, 0.62, n, spec->mirror_coat);
     part_turn(left, first, at, 0, -8, 0);
@@ -208,9 +208,9 @@ static void add_fittings(struct shell *body, const struct coach *coach, const st
                 part_rod(body, vec3(spec->wiper_x + 0.02, y, spec->wiper_z), vec3(spec->wiper_x - 0.03, y + 0.55, spec->wiper_z + 0.035), 0.007, 5, TRIM_COAT);
             }
     }
-    if (level != FAR && spec->fin) {
+    if (spec->fin) {
         double x = spec->screen[1].high.x + 0.22, span[2];
-        if (outline_span(span, &coach->side, x)) part_blob(body, vec3(x, 0, span[1] + 0.005), vec3(0.09, 0.02, 0.045), 0.9, 10, PAINT_COAT);
+        if (outline_span(span, &coach->side, x)) part_blob(body, vec3(x, 0, span[1] + 0.005), vec3(0.09, 0.02, 0.045), 0.9, level == NEAR ? 10 : 6, PAINT_COAT);
     }
     double span[2];
     const double *sign = spec->roof_sign, *rails = spec->rails;
@@ -218,7 +218,7 @@ static void add_fittings(struct shell *body, const struct coach *coach, const st
         part_box(body, vec3(sign[0], 0, span[1] + sign[3]), vec3(sign[1], sign[2], sign[3]), 0.025, YELLOW_SIGN);
         part_box(body, vec3(sign[0], 0, span[1] + 0.008), vec3(sign[1] + 0.02, sign[2] + 0.02, 0.012), 0.006, TRIM_COAT);
     }
-    if (level != FAR && rails[2] > 0) {
+    if (rails[2] > 0) {
         enum { N = 9 };
         struct vec3 p[N];
         for (int i = 0; i < N; i++) {
@@ -236,7 +236,7 @@ static void add_fittings(struct shell *body, const struct coach *coach, const st
 
 static struct vec3 cell_of(const struct coach *coach, enum level level)
 {
-    struct vec3 cell = level == NEAR ? vec3(0.105, 0.090, 0.074) : level == MIDDLE ? vec3(0.20, 0.15, 0.13) : vec3(0.42, 0.30, 0.24);
+    struct vec3 cell = level == NEAR ? vec3(0.105, 0.090, 0.074) : vec3(0.20, 0.15, 0.13);
     return vec3_scale(cell, coarseness(coach));
 }
 
@@ -252,7 +252,7 @@ void car_body(struct shell *body, const struct car_spec *spec, enum level level)
 
     struct mark skirt = { .coach = &coach, .kind = MARK_BOTTOM, .a = { spec->skirt_z } };
     struct form skirt_form = mark_form(&skirt);
-    if (level != FAR) shell_cut(&s, &solid, &skirt_form, 0);
+    shell_cut(&s, &solid, &skirt_form, 0);
     shell_paint(&s, &skirt_form, -10, 0, -1, TRIM_COAT);
     draw_windows(&s, &coach, &solid, spec, level);
     for (int i = 0; i < DECALS; i++)

@@ -96,14 +96,12 @@ static void make_motorcycle(struct vehicle *v, const struct vehicle_spec *spec, 
     part_tube(s, pipe, COUNT(pipe), 0.024, 0.03, n, STEEL);
     part_rod(s, vec3(-0.24, -0.18, 0.27), vec3(-0.66, -0.20, 0.46), 0.055, m / 2 * 2, STEEL);
     add_mudguard(s, front, rf, rf + 0.012, -62, 38, 0.070, level, PAINT_COAT);
-    if (level != FAR) {
-        add_mudguard(s, rear, rr, rr + 0.02, -85, -35, 0.075, level, TRIM_COAT);
-        part_rod(s, vec3(-0.82, 0, 0.80), vec3(-0.98, 0, 0.60), 0.018, 6, TRIM_COAT);
-        first = s->points;
-        part_box(s, vec3(-1.0, 0, 0.58), vec3(0.004, 0.09, 0.05), 0.002, PLATE_WHITE);
-        part_turn(s, first, vec3(-1.0, 0, 0.58), 18, 0, 0);
-        rods(s, vec3(-0.22, 0.09, 0.62), vec3(-0.36, 0.09, 0.42), 0.03, n, TRIM_COAT);
-    }
+    add_mudguard(s, rear, rr, rr + 0.02, -85, -35, 0.075, level, TRIM_COAT);
+    if (level != FAR) rods(s, vec3(-0.22, 0.09, 0.62), vec3(-0.36, 0.09, 0.42), 0.03, n, TRIM_COAT);
+    part_rod(s, vec3(-0.82, 0, 0.80), vec3(-0.98, 0, 0.60), 0.018, 6, TRIM_COAT);
+    first = s->points;
+    part_box(s, vec3(-1.0, 0, 0.58), vec3(0.004, 0.09, 0.05), 0.002, PLATE_WHITE);
+    part_turn(s, first, vec3(-1.0, 0, 0.58), 18, 0, 0);
     vehicle_add_wheel(v, &front_wheel, "wheel_front", front, level);
     vehicle_add_wheel(v, &rear_wheel, "wheel_rear", rear, level);
     const struct rider rider = { .hip = { -0.26, 0, 0.945 }, .chest = { -0.06, 0, 1.30 }, .neck = { -0.02, 0, 1.43 }, .head = { 0.05, 0, 1.54 }, .hip_half = 0.09,

@@ -197,6 +197,36 @@ static size_t collapse(struct work *w, const struct edge *edge)
     return taken;
 }
 
+/* The face at the other side of a triangle's side k, or NONE. */
+static uint32_t beside(const struct work *w, size_t triangle, int k)
+{
+    const uint32_t *t = w->hull->triangle[triangle];
+    uint32_t a = t[k], b = t[(k + 1) % 3];
+    EACH_CORNER(c, w, b) {
+        const uint32_t *o = w->hull->triangle[c / 3];
+        if (o[(c + 1 - c / 3 * 3) % 3] == a) return c / 3;
+    }
+    return NONE;
+}
+
+/* A line between materials counts as if a wall stood on it. */
+static void keep_lines(struct work *w)
+{
+    const struct hull *h = w->hull;
+    for (size_t t = 0; t < h->triangles; t++)
+        for (int k = 0; k < 3; k++) {
+            uint32_t o = beside(w, t, k), a = h->triangle[t][k], b = h->triangle[t][(k + 1) % 3];
+            if (o == NONE || h->material[o] == h->material[t]) continue;
+            struct vec3 along = vec3_sub(h->point[b], h->point[a]);
+            struct vec3 wall = vec3_cross(along, normal_of(h->point[h->triangle[t][0]], h->point[h->triangle[t][1]], h->point[h->triangle[t][2]]));
+            double size = vec3_norm(wall), weight = 0.5 * vec3_dot(along, along);
+            if (!(size > 0)) continue;
+            wall = vec3_scale(wall, 1 / size);
+            add_plane(&w->quadric[a], wall, -vec3_dot(wall, h->point[a]), weight);
+            add_plane(&w->quadric[b], wall, -vec3_dot(wall, h->point[a]), weight);
+        }
+}
+
 static void begin(struct work *w, const double *weight)
 {
     struct hull *h = w->hull;
@@ -220,6 +250,7 @@ static void begin(struct work *w, const double *weight)
         n = vec3_scale(n, 1 / area);
         for (int k = 0; k < 3; k++) add_plane(&w->quadric[at[k]], n, -vec3_dot(n, h->point[at[0]]), area * weight[h->piece[at[k]]]);
     }
+    if (h->material) keep_lines(w);
     for (size_t t = 0; t < h->triangles; t++)
         for (int k = 0; k < 3; k++) {
             uint32_t a = h->triangle[t][k], b = h->triangle[t][(k + 1) % 3];
@@ -256,8 +287,11 @@ static void compact(struct work *w)
 {
     struct hull *h = w->hull;
     size_t kept = 0, points = 0;
-    for (size_t t = 0; t < h->triangles; t++)
-        if (!w->gone[t]) memmove(h->triangle[kept++], h->triangle[t], sizeof *h->triangle);
+    for (size_t t = 0; t < h->triangles; t++) {
+        if (w->gone[t]) continue;
+        if (h->material) h->material[kept] = h->material[t];
+        memmove(h->triangle[kept++], h->triangle[t], sizeof *h->triangle);
+    }
     h->triangles = kept;
     memset(w->mark, 0, h->points * sizeof *w->mark);
     for (size_t c = 0; c < 3 * kept; c++) w->mark[h->triangle[c / 3][c % 3]] = 1;

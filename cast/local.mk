@@ -26,6 +26,7 @@ staffage_cast_SOURCES = \
   %D%/rider.c %D%/rider.h \
   %D%/shell.c %D%/shell.h \
   %D%/shell_cut.c \
+  %D%/shell_decimate.c \
   %D%/shell_region.c \
   %D%/skin_glb.c %D%/skin_glb.h \
   %D%/surface_net.c \

@@ -43,7 +43,7 @@ static void add_flesh(struct shell *s, const struct flesh *f, enum level level, 
         high = vec3(fmax(high.x, fmax(l->a.x, l->b.x) + r), fmax(high.y, fmax(l->a.y, l->b.y) + r), fmax(high.z, fmax(l->a.z, l->b.z) + r));
     }
     if (low.y >= 0) low.y = -0.01;
-    double cell = level == NEAR ? 0.026 / fineness : (level == MIDDLE ? 0.048 : 0.078) / fineness;
+    double cell = level == NEAR ? 0.026 / fineness : 0.048 / fineness;
     struct form form = { flesh_at, f };
     shell_add_solid(s, &form, low, high, vec3(cell, cell, cell), coat);
 }

@@ -120,22 +120,11 @@ void hull_add_shape(struct hull *hull, const struct shape *shape, int piece, dou
     free(g.point);
 }
 
-struct hull hull_copy(const struct hull *hull)
-{
-    struct hull copy = *hull;
-    copy.point = need(malloc((hull->points + 1) * sizeof *copy.point));
-    copy.piece = need(malloc(hull->points + 1));
-    copy.triangle = need(malloc((hull->triangles + 1) * sizeof *copy.triangle));
-    memcpy(copy.point, hull->point, hull->points * sizeof *copy.point);
-    memcpy(copy.piece, hull->piece, hull->points);
-    memcpy(copy.triangle, hull->triangle, hull->triangles * sizeof *copy.triangle);
-    return copy;
-}
-
 void hull_release(struct hull *hull)
 {
     free(hull->point);
     free(hull->piece);
     free(hull->triangle);
+    free(hull->material);
     *hull = (struct hull){ 0 };
 }

@@ -291,11 +291,10 @@ static void make_dump_truck(struct vehicle *v, const struct vehicle_spec *spec, 
     boxes(s, -3.62, -3.64, 0.62, 1.2, 0.3, 1.1, 0.005, GAP);
     box(s, -3.85, -3.95, 1.1, 0.72, 0.90, 0.02, FLOOR);
     add_rear_lamps(s, -3.96, 0.85, 0.82, 0.14, 0.06);
+    for (int side = -1; side <= 1; side += 2)
+        part_rod(s, vec3(1.0, side * 1.02, 0.9), vec3(1.0, side * 1.02, 3.0), 0.065, level == NEAR ? 14 : 6, BRIGHT);   /* exhaust stacks */
     if (level != FAR) {
-        for (int side = -1; side <= 1; side += 2) {
-            part_rod(s, vec3(1.0, side * 1.02, 0.9), vec3(1.0, side * 1.02, 3.0), 0.065, level == NEAR ? 14 : 6, BRIGHT);   /* exhaust stacks */
-            boxes(s, 2.25, 1.3, 1.0, 1.16, 0.66, 0.72, 0.01, SILVER_PANEL);
-        }
+        boxes(s, 2.25, 1.3, 1.0, 1.16, 0.66, 0.72, 0.01, SILVER_PANEL);
         for (int k = 0; k < 5; k++) part_box(s, vec3(1.95, (k - 2) * 0.32, 2.84), vec3(0.03, 0.04, 0.025), 0.01, TURN_LAMP);
         if (level == NEAR) part_box(s, vec3(-3.97, 0, 0.80), vec3(0.01, 0.152, 0.076), 0.004, PLATE_WHITE);
     }

@@ -206,6 +206,8 @@ void vehicle_release(struct vehicle *v)
     *v = (struct vehicle){ 0 };
 }
 
+#define FAR_TRIANGLES 1300 /* what some forty pixels can show */
+
 /* The origin lies below the middle of the box. */
 static double middle_of(const struct vehicle *v)
 {
@@ -233,15 +235,16 @@ bool write_vehicle(size_t triangles[LEVELS], const struct vehicle_spec *spec, co
         struct vehicle vehicle = { 0 };
         vehicle.body.least_bevel_m = level == NEAR ? 0.0008 : level == MIDDLE ? 0.025 : 1;
         spec->make(&vehicle, spec, (enum level)level);
-        triangles[level] = 0;
         if (level == NEAR) middle_x = middle_of(&vehicle);
         move(&vehicle, -middle_x);
-        shell_clean(&vehicle.body);
+        size_t wheels = 0;
         for (int i = 0; i < vehicle.wheels; i++) {
             shell_clean(&vehicle.wheel_shell[i]);
-            triangles[level] += vehicle.wheel_shell[vehicle.wheel[i].shell].faces_count;
+            wheels += vehicle.wheel_shell[vehicle.wheel[i].shell].faces_count;
         }
-        triangles[level] += vehicle.body.faces_count;
+        shell_clean(&vehicle.body);
+        if (level == FAR) shell_decimate(&vehicle.body, FAR_TRIANGLES - wheels);
+        triangles[level] = wheels + vehicle.body.faces_count;
         char *path = string_format("%s/%s%s.glb", folder, spec->name, suffix[level]);
         good = path && write_level(&vehicle, spec, path, err);
         free(path);

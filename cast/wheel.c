@@ -34,15 +34,24 @@ static void add_disc(struct shell *s, double r, double y, double thick, double d
     part_lathe(s, vec3(0, 0, 0), profile, COUNT(profile), n, 40);
 }
 
+/* From far off a wheel is its outline and a disc of another colour; one with spokes stays open. */
+static void add_far(struct shell *s, const struct wheel_spec *w)
+{
+    enum { SIDES = 12 };
+    double R = w->diameter_m / 2, r = w->rim_diameter_m / 2, h = w->width_m / 2, inner = w->rim == TWIN_RIM ? -1.12 * w->width_m - h : -h;
+    double face = w->rim == TWIN_RIM ? -0.5 * h : 0.6 * h;
+    const struct ring wheel[] = { { 0, face, w->coat }, { r, face, TYRE }, { r + 0.01, 0.95 * h, TYRE }, { R, 0.8 * h, TYRE }, { R, inner, TYRE }, { 0, inner, TYRE } };
+    const struct ring tyre[] = { { r, 0.8 * h, TYRE }, { R, 0.7 * h, TYRE }, { R, -0.7 * h, TYRE }, { r, -0.8 * h, TYRE }, { r, 0.8 * h, TYRE } };
+    if (w->rim == CAST_RIM || w->rim == WIRE_RIM) part_lathe(s, vec3(0, 0, 0), tyre, COUNT(tyre), SIDES, 60);
+    else part_lathe(s, vec3(0, 0, 0), wheel, COUNT(wheel), SIDES, 50);
+    for (int k = 0; k < w->spokes && w->rim == CAST_RIM; k++) add_spoke(s, 2 * PI * k / w->spokes, 0, r, 0.04, 0.03, 0.012, 0.024, w->coat);
+}
+
 static void add_rim(struct shell *s, const struct wheel_spec *w, double middle_y, int n, enum level level)
 {
     double r = w->rim_diameter_m / 2 - 0.01, h = w->width_m / 2, y = middle_y;
     switch (w->rim) {
     case ALLOY_RIM:
-        if (level == FAR) {
-            add_disc(s, r, y + 0.6 * h, 0.02, 0.01, n, w->coat);
-            break;
-        }
         add_disc(s, r, y - 0.1 * h, 0.02, 0, n, RIM_DARK);
         if (level == NEAR) add_disc(s, 0.66 * r, y + 0.05 * h, 0.02, 0, n, STEEL);
         for (int k = 0; k < w->spokes; k++) {
@@ -56,7 +65,7 @@ static void add_rim(struct shell *s, const struct wheel_spec *w, double middle_y
         if (level == NEAR) add_disc(s, 0.13 * r, y + 0.70 * h, 0.02, 0.006, n / 2, TRIM_COAT);
         break;
     case STEEL_RIM:
-        add_disc(s, r, y + 0.45 * h, 0.03, level == FAR ? 0.01 : 0.035, n, w->coat);
+        add_disc(s, r, y + 0.45 * h, 0.03, 0.035, n, w->coat);
         for (int k = 0; k < w->spokes && level == NEAR; k++) {
             double a = 2 * PI * k / w->spokes;
             add_spoke(s, a, 0.66 * r, 0.86 * r, 0.022, 0.028, y + 0.45 * h + 0.018, 0.012, RIM_DARK);
@@ -65,10 +74,6 @@ static void add_rim(struct shell *s, const struct wheel_spec *w, double middle_y
         break;
     case TRUCK_RIM:
     case TWIN_RIM: {
-        if (level == FAR) {
-            add_disc(s, r, w->rim == TRUCK_RIM ? y + 0.55 * h : y - 0.5 * h, 0.03, 0.02, n, w->coat);
-            break;
-        }
         double hub = w->rim == TRUCK_RIM ? y + 0.75 * h : y - 0.35 * h, face = w->rim == TRUCK_RIM ? y + 0.55 * h : y - 0.55 * h;
         const struct ring dish[] = { { 0, hub + 0.06, w->coat }, { 0.26 * r, hub + 0.055, w->coat }, { 0.32 * r, hub, w->coat }, { 0.60 * r, face, w->coat },
                                      { 0.66 * r, face - 0.015, w->coat }, { 0.9 * r, face - 0.05, w->coat }, { r, face - 0.05, w->coat },
@@ -83,7 +88,7 @@ static void add_rim(struct shell *s, const struct wheel_spec *w, double middle_y
     }
     case CAST_RIM:
     case WIRE_RIM: {
-        int spokes = level == NEAR ? w->spokes : w->rim == WIRE_RIM ? level == MIDDLE ? 12 : 0 : w->spokes;
+        int spokes = level == NEAR ? w->spokes : w->rim == WIRE_RIM ? 12 : w->spokes;
         for (int k = 0; k < spokes; k++) {
             double a = 2 * PI * k / spokes, b = w->rim == WIRE_RIM ? a + (k % 2 ? 0.35 : -0.35) : a;
             double lean = w->rim == WIRE_RIM ? (k % 4 < 2 ? 0.03 : -0.03) : 0;
@@ -99,7 +104,11 @@ static void add_rim(struct shell *s, const struct wheel_spec *w, double middle_y
 
 void wheel_make(struct shell *s, const struct wheel_spec *w, enum level level)
 {
-    int n = level == NEAR ? 32 : level == MIDDLE ? 16 : 10;
+    if (level == FAR) {
+        add_far(s, w);
+        return;
+    }
+    int n = level == NEAR ? 32 : 16;
     bool twin = w->rim == TWIN_RIM;
     double apart = twin ? 1.12 * w->width_m : 0; /* the inner one's middle behind the outer one's */
     add_tyre(s, w, 0, n, level);

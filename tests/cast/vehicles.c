@@ -18,7 +18,7 @@ static const struct { const char *name; enum entity_class class_; int wheels; } 
     { "ambulance", CLASS_AMBULANCE, 4 }, { "fire-truck", CLASS_FIRE_TRUCK, 4 }, { "dump-truck", CLASS_CONSTRUCTION, 6 },
     { "motorcycle", CLASS_MOTORCYCLE, 2 }, { "bicycle", CLASS_BICYCLE, 2 }
 };
-static const int most_triangles[DETAIL_COUNT] = { 45000, 8500, 2900 };
+static const int most_triangles[DETAIL_COUNT] = { 45000, 8500, 1500 };
 
 /* --- surfaces: all triangles but those of glass, which is thin, with points that lie at one place made one --- */
 
@@ -142,12 +142,10 @@ static void check_surface(const struct model *m, const char *name)
 
 /* --- sizes and wheels --- */
 
-/* From the air, where a vehicle is some dozen pixels long, limbs and mirrors are coarse. */
-static void check_size(const struct model *m, const struct catalogue_model *listed, enum detail detail, const char *name)
+static void check_size(const struct model *m, const struct catalogue_model *listed, const char *name)
 {
-    double part = detail == DETAIL_FAR ? 0.04 : 0.02;
     double size[3] = { m->max_m.x - m->min_m.x, m->max_m.y - m->min_m.y, m->max_m.z - m->min_m.z };
-    for (int k = 0; k < 3; k++) NEAR(size[k], listed->size_m[k], part * listed->size_m[k], "%s: as large as the catalogue says, axis %d", name, k);
+    for (int k = 0; k < 3; k++) NEAR(size[k], listed->size_m[k], 0.02 * listed->size_m[k], "%s: as large as the catalogue says, axis %d", name, k);
     NEAR(m->lowest_m, 0, 0.002, "%s: its lowest point lies on the file's ground", name);
 }
 
@@ -225,7 +223,7 @@ static void check_vehicle(const struct catalogue_model *listed, int wheels, cons
         OK((int)triangles == listed->triangles[detail] && listed->triangles[detail] <= most_triangles[detail], "%s: %zu triangles, as listed, not too many", name, triangles);
         OK(paint && glass == (wheels > 2 && detail != DETAIL_FAR), "%s: takes a colour%s", name, glass ? ", has glass" : "");
         check_surface(m, name);
-        check_size(m, listed, (enum detail)detail, name);
+        check_size(m, listed, name);
         check_wheels(m, listed->files[detail], wheels, &stated, name);
         model_destroy(m);
     }
