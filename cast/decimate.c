@@ -1,5 +1,7 @@
 #include "cast/hull.h"
 
+#include "cast/need.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -21,12 +23,6 @@ struct work {
     struct edge *heap;
     size_t heap_count, heap_room;
 };
-
-static void *need(void *memory)
-{
-    if (!memory) abort();
-    return memory;
-}
 
 /* --- quadrics --- */
 

@@ -2,6 +2,7 @@
 
 #include "cast/hull.h"
 #include "cast/motion.h"
+#include "cast/need.h"
 #include "cast/person.h"
 #include "cast/skin_glb.h"
 #include "cast/texture.h"
@@ -25,12 +26,6 @@ static const size_t triangles[3] = { 12000, 3000, 800 };
 static const char *const suffix[3] = { "", "-middle", "-far" };
 
 #define SOLE_SHARE 0.013 /* of stature: what shoes add */
-
-static void *need(void *memory)
-{
-    if (!memory) abort();
-    return memory;
-}
 
 /* The four heaviest, in 255ths. */
 static void bind_vertex(struct skin_vertex *v, const struct garment *g, const struct body *body, struct vec3 p)

@@ -16,8 +16,7 @@ struct hull { /* { 0 } is empty; running out of memory ends the program */
     size_t points, triangles;
 };
 
-/* Append the surface of a shape, in cells of a size: a point in each cell that the surface passes.
- * Src: Gibson 1998, Constrained elastic surface nets */
+/* Append the surface of a shape, as a net in cells of a size. */
 void hull_add_shape(struct hull *hull, const struct shape *shape, int piece, double cell_m);
 /* Make do with fewer triangles, where they are missed least; closed stays closed.
  * In: weight  (pieces) how much an error counts there

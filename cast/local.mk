@@ -14,11 +14,14 @@ staffage_cast_SOURCES = \
   %D%/field.c %D%/field.h \
   %D%/figure.c %D%/figure.h \
   %D%/fleet.c %D%/fleet.h \
+  %D%/form.h \
+  %D%/glb.c %D%/glb.h \
   %D%/head.c \
-  %D%/hull.h \
+  %D%/hull.c %D%/hull.h \
   %D%/listing.c %D%/listing.h \
   %D%/main.c \
   %D%/motion.c %D%/motion.h \
+  %D%/need.h \
   %D%/outline.c %D%/outline.h \
   %D%/part.c %D%/part.h \
   %D%/people.c \
@@ -29,7 +32,7 @@ staffage_cast_SOURCES = \
   %D%/shell_decimate.c \
   %D%/shell_region.c \
   %D%/skin_glb.c %D%/skin_glb.h \
-  %D%/surface_net.c \
+  %D%/surface_net.c %D%/surface_net.h \
   %D%/texture.c %D%/texture.h \
   %D%/trucks.c \
   %D%/vehicle.h \

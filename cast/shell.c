@@ -1,13 +1,10 @@
 #include "cast/shell.h"
 
+#include "cast/need.h"
+#include "cast/surface_net.h"
+
 #include <stdlib.h>
 #include <string.h>
-
-static void *need(void *memory)
-{
-    if (!memory) abort();
-    return memory;
-}
 
 struct vec3 form_normal(const struct form *form, struct vec3 p)
 {
@@ -57,87 +54,34 @@ void shell_face(struct shell *s, uint32_t a, uint32_t b, uint32_t c, int materia
 
 void shell_quad(struct shell *s, uint32_t a, uint32_t b, uint32_t c, uint32_t d, int material)
 {
-    uint32_t q[4] = { a, b, c, d };
-    int k = vec3_norm(vec3_sub(s->p[a], s->p[c])) > vec3_norm(vec3_sub(s->p[b], s->p[d])) + 1e-9;
-    shell_face(s, q[k], q[k + 1], q[k + 2], material);
-    shell_face(s, q[k], q[k + 2], q[(k + 3) % 4], material);
-}
-
-/* --- a solid's surface --- */
-
-struct grid { int n[3]; struct vec3 low, cell; float *value; uint32_t *point; };
-
-static size_t at(const struct grid *g, int i, int j, int k) { return ((size_t)i * (size_t)g->n[1] + (size_t)j) * (size_t)g->n[2] + (size_t)k; }
-
-static struct vec3 place(const struct grid *g, double i, double j, double k)
-{
-    return vec3(g->low.x + i * g->cell.x, g->low.y + j * g->cell.y, g->low.z + k * g->cell.z);
-}
-
-static void add_cell(struct shell *s, struct grid *g, const struct form *solid, bool whole, int i, int j, int k)
-{
-    struct vec3 sum = { 0, 0, 0 };
-    int cuts = 0;
-    for (int e = 0; e < 12; e++) {
-        int axis = e / 4, c[3] = { 0, 0, 0 };
-        c[(axis + 1) % 3] = e & 1, c[(axis + 2) % 3] = e >> 1 & 1;
-        double a = (double)g->value[at(g, i + c[0], j + c[1], k + c[2])];
-        double b = (double)g->value[at(g, i + c[0] + (axis == 0), j + c[1] + (axis == 1), k + c[2] + (axis == 2))];
-        if ((a < 0) == (b < 0)) continue;
-        double t[3] = { c[0], c[1], c[2] };
-        t[axis] += a / (a - b);
-        sum = vec3_add(sum, place(g, i + t[0], j + t[1], k + t[2]));
-        cuts++;
-    }
-    if (!cuts) return;
-    struct vec3 p = vec3_scale(sum, 1.0 / cuts);
-    bool middle = j == 0 && !whole; /* the first cells of a half lie about the middle */
-    if (middle) p.y = 0;
-    p = form_project(solid, p);
-    struct vec3 n = form_normal(solid, p);
-    if (middle) n.y = 0, n = vec3_unit(n);
-    g->point[at(g, i, j, k)] = shell_point(s, p, n);
-}
-
-static void add_crossing(struct shell *s, const struct grid *g, int i, int j, int k, int axis, int material)
-{
-    bool in = g->value[at(g, i, j, k)] < 0;
-    if (in == (g->value[at(g, i + (axis == 0), j + (axis == 1), k + (axis == 2))] < 0)) return;
-    uint32_t q[4];
-    for (int c = 0; c < 4; c++) {
-        int d[3] = { 0, 0, 0 }, turn = in ? c : 3 - c;
-        d[(axis + 1) % 3] = turn == 0 || turn == 3, d[(axis + 2) % 3] = turn < 2;
-        q[c] = g->point[at(g, i - d[0], j - d[1], k - d[2])];
-    }
-    shell_quad(s, q[0], q[1], q[2], q[3], material);
+    uint32_t t[2][3];
+    quad_split(t, (const uint32_t[]){ a, b, c, d }, s->p);
+    for (int half = 0; half < 2; half++) shell_face(s, t[half][0], t[half][1], t[half][2], material);
 }
 
 void shell_add_solid(struct shell *s, const struct form *solid, struct vec3 low, struct vec3 high, struct vec3 cell, int material)
 {
     bool whole = low.y < 0;
-    struct grid g = { .low = vec3(low.x - 1.5 * cell.x, whole ? low.y - 1.5 * cell.y : -0.5 * cell.y, low.z - 1.5 * cell.z), .cell = cell };
-    g.n[0] = (int)((high.x - low.x) / cell.x) + 5;
-    g.n[1] = (int)((high.y - fmin(low.y, 0)) / cell.y) + (whole ? 5 : 4);
-    g.n[2] = (int)((high.z - low.z) / cell.z) + 5;
-    size_t total = (size_t)g.n[0] * (size_t)g.n[1] * (size_t)g.n[2];
-    g.value = need(malloc(total * sizeof *g.value));
-    g.point = need(malloc(total * sizeof *g.point));
-    for (int i = 0; i < g.n[0]; i++)
-        for (int j = 0; j < g.n[1]; j++)
-            for (int k = 0; k < g.n[2]; k++) {
-                struct vec3 p = place(&g, i, j, k);
-                if (!whole) p.y = fabs(p.y);
-                g.value[at(&g, i, j, k)] = (float)form_at(solid, p);
-            }
-    for (int i = 0; i + 1 < g.n[0]; i++)
-        for (int j = 0; j + 1 < g.n[1]; j++)
-            for (int k = 0; k + 1 < g.n[2]; k++) add_cell(s, &g, solid, whole, i, j, k);
-    for (int i = 1; i + 1 < g.n[0]; i++)
-        for (int j = 1; j + 1 < g.n[1]; j++)
-            for (int k = 1; k + 1 < g.n[2]; k++)
-                for (int axis = 0; axis < 3; axis++) add_crossing(s, &g, i, j, k, axis, material);
-    free(g.value);
-    free(g.point);
+    struct net_grid grid = { vec3(low.x - 1.5 * cell.x, whole ? low.y - 1.5 * cell.y : -0.5 * cell.y, low.z - 1.5 * cell.z), cell, { 0 } };
+    grid.n[0] = (int)((high.x - low.x) / cell.x) + 5;
+    grid.n[1] = (int)((high.y - fmin(low.y, 0)) / cell.y) + (whole ? 5 : 4);
+    grid.n[2] = (int)((high.z - low.z) / cell.z) + 5;
+    struct surface_net net = surface_net_create(solid, &grid, INFINITY);
+    uint32_t first = (uint32_t)s->points;
+    for (size_t i = 0; i < net.points; i++) {
+        struct vec3 p = net.point[i];
+        bool middle = net.first_layer[i] && !whole; /* the first cells of a half lie about the middle */
+        if (middle) p.y = 0;
+        p = form_project(solid, p);
+        struct vec3 n = form_normal(solid, p);
+        if (middle) n.y = 0, n = vec3_unit(n);
+        shell_point(s, p, n);
+    }
+    for (size_t i = 0; i < net.quads; i++) {
+        const uint32_t *q = net.quad[i];
+        shell_quad(s, first + q[0], first + q[1], first + q[2], first + q[3], material);
+    }
+    surface_net_release(&net);
 }
 
 /* --- the whole --- */

@@ -3,6 +3,7 @@
 #ifndef STAFFAGE_CAST_SHELL_H
 #define STAFFAGE_CAST_SHELL_H
 
+#include "cast/form.h"
 #include "lib/vec.h"
 
 #include <stdbool.h>
@@ -11,9 +12,6 @@
 
 #define PI 3.14159265358979323846
 
-/* A function of space. Of a solid: about the distance to its surface in metres, negative inside. */
-struct form { double (*at)(const void *self, struct vec3 p); const void *self; };
-static inline double form_at(const struct form *form, struct vec3 p) { return form->at(form->self, p); }
 struct vec3 form_normal(const struct form *form, struct vec3 p);
 /* Onto the surface of a solid, from near it; y = 0 stays. */
 struct vec3 form_project(const struct form *form, struct vec3 p);
@@ -32,8 +30,8 @@ void shell_face(struct shell *shell, uint32_t a, uint32_t b, uint32_t c, int mat
 /* Along the shorter diagonal. */
 void shell_quad(struct shell *shell, uint32_t a, uint32_t b, uint32_t c, uint32_t d, int material);
 
-/* Append a solid's surface, in cells of a size, in a box: its left half, or the whole where the box begins below y = 0.
- * Src: Gibson 1998, Constrained elastic surface nets */
+/* Append a solid's surface, in cells of a size, in a box: its left half, or the whole where the box begins below y = 0. Halves are of
+ * solids that are symmetric. */
 void shell_add_solid(struct shell *shell, const struct form *solid, struct vec3 low, struct vec3 high, struct vec3 cell_m, int material);
 
 /* ---- lines on the surface ---- */

@@ -1,14 +1,10 @@
 /* Lines on a shell: edges are split, and the faces beside them anew laid out. */
 #include "cast/shell.h"
 
+#include "cast/need.h"
+
 #include <stdlib.h>
 #include <string.h>
-
-static void *need(void *memory)
-{
-    if (!memory) abort();
-    return memory;
-}
 
 /* --- the points that split edges --- */
 

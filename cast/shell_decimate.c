@@ -1,15 +1,10 @@
 /* A shell with fewer faces. */
 #include "cast/hull.h"
+#include "cast/need.h"
 #include "cast/shell.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-static void *need(void *memory)
-{
-    if (!memory) abort();
-    return memory;
-}
 
 struct place { struct vec3 p; uint32_t point; };
 

@@ -1,14 +1,10 @@
 /* Regions of a shell: sunk, hollowed out, lined. */
 #include "cast/shell.h"
 
+#include "cast/need.h"
+
 #include <stdlib.h>
 #include <string.h>
-
-static void *need(void *memory)
-{
-    if (!memory) abort();
-    return memory;
-}
 
 /* Directed edges of faces, sorted: to ask whose edge the other side of one is. */
 struct edge { uint32_t a, b, face; };

@@ -1,4 +1,4 @@
-/* A skinned figure as a binary glTF 2.0 file: +y up, +z front, metres. */
+/* A skinned figure as a binary glTF file. */
 #ifndef STAFFAGE_CAST_SKIN_GLB_H
 #define STAFFAGE_CAST_SKIN_GLB_H
 

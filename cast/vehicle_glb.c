@@ -1,5 +1,7 @@
-/* A vehicle as a binary glTF 2.0 file: +y up, +z front, metres. */
+/* A vehicle as a binary glTF file. */
 #include "cast/coat.h"
+#include "cast/glb.h"
+#include "cast/need.h"
 #include "cast/vehicle.h"
 #include "lib/file.h"
 
@@ -7,32 +9,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A file in the making: bytes, and the JSON lists that tell what they are. */
-struct text { FILE *f; char *data; size_t size; };
-enum { BYTES, VIEWS, ACCESSORS, MESHES, MATERIALS, NODES, CHANNELS, SAMPLERS, JSON, TEXTS };
-struct out { struct text text[TEXTS]; size_t size; int views, accessors, materials; int material_of[COATS]; const char *color; };
-
-static void *need(void *memory)
-{
-    if (!memory) abort();
-    return memory;
-}
-
-static void open_text(struct text *text)
-{
-    *text = (struct text){ 0 };
-    text->f = need(open_memstream(&text->data, &text->size));
-}
+/* The file, and the JSON lists of what is a vehicle's. */
+enum { MESHES, MATERIALS, NODES, CHANNELS, LISTS };
+struct out { struct glb glb; struct text list[LISTS]; int materials; int material_of[COATS]; const char *color; };
 
 /* --- vertices of one material --- */
 
 struct vertex { float p[3], n[3]; };
 struct vertices { struct vertex *list; uint32_t *index; size_t count, indices; };
 
-/* Forward, left, up become z, x, y. */
 static struct vertex vertex_of(struct vec3 p, struct vec3 n)
 {
-    return (struct vertex){ { (float)p.y, (float)p.z, (float)p.x }, { (float)n.y, (float)n.z, (float)n.x } };
+    struct vertex v;
+    glb_place(v.p, p), glb_place(v.n, n);
+    return v;
 }
 
 static int by_content(const void *a, const void *b) { return memcmp(a, b, sizeof(struct vertex)); }
@@ -60,25 +50,6 @@ static struct vertices vertices_of(const struct shell *s, int material)
 
 /* --- pieces of the file --- */
 
-static int add_view(struct out *o, const void *data, size_t bytes, int target, size_t stride)
-{
-    FILE *f = o->text[VIEWS].f;
-    fprintf(f, "%s{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu", o->views ? "," : "", o->size, bytes);
-    if (stride) fprintf(f, ",\"byteStride\":%zu", stride);
-    if (target) fprintf(f, ",\"target\":%d", target);
-    fputc('}', f);
-    fwrite(data, 1, bytes, o->text[BYTES].f);
-    for (o->size += bytes; o->size % 4; o->size++) fputc(0, o->text[BYTES].f);
-    return o->views++;
-}
-
-static int add_accessor(struct out *o, int view, size_t offset, int component, size_t count, const char *type, const char *limits)
-{
-    fprintf(o->text[ACCESSORS].f, "%s{\"bufferView\":%d,\"byteOffset\":%zu,\"componentType\":%d,\"count\":%zu,\"type\":\"%s\"%s}",
-            o->accessors ? "," : "", view, offset, component, count, type, limits);
-    return o->accessors++;
-}
-
 static double linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : pow((srgb + 0.055) / 1.055, 2.4); }
 
 static int material_for(struct out *o, int coat)
@@ -88,7 +59,7 @@ static int material_for(struct out *o, int coat)
     double rgb[3] = { c->rgb[0], c->rgb[1], c->rgb[2] };
     unsigned own = coat == PAINT_COAT && o->color ? (unsigned)strtoul(o->color + 1, NULL, 16) : 0;
     for (int k = 0; own && k < 3; k++) rgb[k] = (own >> (16 - 8 * k) & 255) / 255.0;
-    FILE *f = o->text[MATERIALS].f;
+    FILE *f = o->list[MATERIALS].f;
     fprintf(f, "%s{\"name\":\"%s\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[%.5g,%.5g,%.5g,1],\"metallicFactor\":%g,\"roughnessFactor\":%g}",
             o->materials ? "," : "", c->name, linear(rgb[0]), linear(rgb[1]), linear(rgb[2]), c->metallic, c->roughness);
     if (c->clearcoat > 0) fprintf(f, ",\"extensions\":{\"KHR_materials_clearcoat\":{\"clearcoatFactor\":%g,\"clearcoatRoughnessFactor\":0.03}}", c->clearcoat);
@@ -99,104 +70,75 @@ static int material_for(struct out *o, int coat)
 
 static void add_primitive(struct out *o, const struct vertices *v, int coat, bool first)
 {
-    float low[3] = { 1e9f, 1e9f, 1e9f }, high[3] = { -1e9f, -1e9f, -1e9f };
-    for (size_t i = 0; i < v->count; i++)
-        for (int k = 0; k < 3; k++) {
-            low[k] = fminf(low[k], v->list[i].p[k]);
-            high[k] = fmaxf(high[k], v->list[i].p[k]);
-        }
-    char limits[256];
-    snprintf(limits, sizeof limits, ",\"min\":[%.9g,%.9g,%.9g],\"max\":[%.9g,%.9g,%.9g]", (double)low[0], (double)low[1], (double)low[2],
-             (double)high[0], (double)high[1], (double)high[2]);
-    int view = add_view(o, v->list, v->count * sizeof *v->list, 34962, sizeof *v->list);
-    int position = add_accessor(o, view, 0, 5126, v->count, "VEC3", limits), normal = add_accessor(o, view, 12, 5126, v->count, "VEC3", "");
+    char limits[LIMITS_SIZE];
+    glb_limits(limits, v->list[0].p, v->count, 3, sizeof *v->list / sizeof(float));
+    int view = glb_view(&o->glb, v->list, v->count * sizeof *v->list, VERTICES, sizeof *v->list);
+    int position = glb_accessor(&o->glb, view, 0, v->count, F32, false, "VEC3", limits), normal = glb_accessor(&o->glb, view, 12, v->count, F32, false, "VEC3", "");
     bool is_short = v->count < 65535;
     uint16_t *small = need(malloc((v->indices + 1) * sizeof *small));
     for (size_t i = 0; i < v->indices; i++) small[i] = (uint16_t)v->index[i];
-    view = is_short ? add_view(o, small, v->indices * sizeof *small, 34963, 0) : add_view(o, v->index, v->indices * sizeof *v->index, 34963, 0);
+    view = is_short ? glb_view(&o->glb, small, v->indices * sizeof *small, INDICES, 0) : glb_view(&o->glb, v->index, v->indices * sizeof *v->index, INDICES, 0);
     free(small);
-    int index = add_accessor(o, view, 0, is_short ? 5123 : 5125, v->indices, "SCALAR", "");
-    fprintf(o->text[MESHES].f, "%s{\"attributes\":{\"POSITION\":%d,\"NORMAL\":%d},\"indices\":%d,\"material\":%d}", first ? "" : ",", position, normal,
+    int index = glb_accessor(&o->glb, view, 0, v->indices, is_short ? U16 : U32, false, "SCALAR", "");
+    fprintf(o->list[MESHES].f, "%s{\"attributes\":{\"POSITION\":%d,\"NORMAL\":%d},\"indices\":%d,\"material\":%d}", first ? "" : ",", position, normal,
             index, material_for(o, coat));
 }
 
 static void add_mesh(struct out *o, const struct shell *shell, const char *name, bool first)
 {
-    fprintf(o->text[MESHES].f, "%s{\"name\":\"%s\",\"primitives\":[", first ? "" : ",", name);
+    fprintf(o->list[MESHES].f, "%s{\"name\":\"%s\",\"primitives\":[", first ? "" : ",", name);
     bool none = true;
     for (int m = 0; m < COATS; m++) {
         struct vertices v = vertices_of(shell, m);
         if (v.indices) add_primitive(o, &v, m, none), none = false;
         free(v.list), free(v.index);
     }
-    fputs("]}", o->text[MESHES].f);
+    fputs("]}", o->list[MESHES].f);
 }
 
-/* Each wheel turns forward once in a second. */
-static void add_roll(struct out *o, const struct vehicle *v)
+/* Each wheel turns forward once in a second. Returns the accessor of the times; that of the turns follows it. */
+static int add_roll(struct out *o, const struct vehicle *v)
 {
     static const float time_s[5] = { 0, 0.25f, 0.5f, 0.75f, 1 };
     const float h = 0.70710678f, turn[5][4] = { { 0, 0, 0, 1 }, { h, 0, 0, h }, { 1, 0, 0, 0 }, { h, 0, 0, -h }, { 0, 0, 0, -1 } };
-    int input = add_accessor(o, add_view(o, time_s, sizeof time_s, 0, 0), 0, 5126, 5, "SCALAR", ",\"min\":[0],\"max\":[1]");
-    int output = add_accessor(o, add_view(o, turn, sizeof turn, 0, 0), 0, 5126, 5, "VEC4", "");
-    fprintf(o->text[SAMPLERS].f, "{\"input\":%d,\"output\":%d}", input, output);
+    struct glb *glb = &o->glb;
+    int input = glb_accessor(glb, glb_view(glb, time_s, sizeof time_s, NO_TARGET, 0), 0, 5, F32, false, "SCALAR", ",\"min\":[0],\"max\":[1]");
+    glb_accessor(glb, glb_view(glb, turn, sizeof turn, NO_TARGET, 0), 0, 5, F32, false, "VEC4", "");
     for (int i = 0; i < v->wheels; i++)
-        fprintf(o->text[CHANNELS].f, "%s{\"sampler\":0,\"target\":{\"node\":%d,\"path\":\"rotation\"}}", i ? "," : "", 2 + i);
-}
-
-static void write_u32(FILE *f, size_t value)
-{
-    for (int k = 0; k < 4; k++) fputc((int)(value >> 8 * k & 255), f);
-}
-
-static bool write_glb(const char *path, struct out *o, struct error *err)
-{
-    struct text *json = &o->text[JSON], *bytes = &o->text[BYTES], file;
-    while (ftell(json->f) % 4) fputc(' ', json->f);
-    fclose(json->f), fclose(bytes->f);
-    open_text(&file);
-    fwrite("glTF\2\0\0\0", 1, 8, file.f);
-    write_u32(file.f, 12 + 8 + json->size + 8 + bytes->size);
-    write_u32(file.f, json->size);
-    fwrite("JSON", 1, 4, file.f);
-    fwrite(json->data, 1, json->size, file.f);
-    write_u32(file.f, bytes->size);
-    fwrite("BIN\0", 1, 4, file.f);
-    fwrite(bytes->data, 1, bytes->size, file.f);
-    fclose(file.f);
-    bool good = file_write(path, file.data, file.size, err);
-    free(file.data);
-    return good;
+        fprintf(o->list[CHANNELS].f, "%s{\"sampler\":0,\"target\":{\"node\":%d,\"path\":\"rotation\"}}", i ? "," : "", 2 + i);
+    return input;
 }
 
 static bool write_level(const struct vehicle *v, const struct vehicle_spec *spec, const char *path, struct error *err)
 {
     struct out o = { .color = spec->color };
-    for (int i = 0; i < TEXTS; i++) open_text(&o.text[i]);
+    struct text json;
+    glb_open(&o.glb), text_open(&json);
+    for (int i = 0; i < LISTS; i++) text_open(&o.list[i]);
     for (int i = 0; i < COATS; i++) o.material_of[i] = -1;
     add_mesh(&o, &v->body, "body", true);
-    fprintf(o.text[NODES].f, "{\"name\":\"%s\",\"children\":[1", spec->name);
-    for (int i = 0; i < v->wheels; i++) fprintf(o.text[NODES].f, ",%d", 2 + i);
-    fputs("]},{\"name\":\"body\",\"mesh\":0}", o.text[NODES].f);
+    fprintf(o.list[NODES].f, "{\"name\":\"%s\",\"children\":[1", spec->name);
+    for (int i = 0; i < v->wheels; i++) fprintf(o.list[NODES].f, ",%d", 2 + i);
+    fputs("]},{\"name\":\"body\",\"mesh\":0}", o.list[NODES].f);
     for (int i = 0; i < v->wheels; i++) {
         const struct wheel *w = &v->wheel[i];
         if (v->wheel_shell[i].faces_count) add_mesh(&o, &v->wheel_shell[i], w->name, false);
-        fprintf(o.text[NODES].f, ",{\"name\":\"%s\",\"mesh\":%d,\"translation\":[%.9g,%.9g,%.9g]}", w->name, 1 + w->shell, w->hub.y, w->hub.z, w->hub.x);
+        fprintf(o.list[NODES].f, ",{\"name\":\"%s\",\"mesh\":%d,\"translation\":[%.9g,%.9g,%.9g]}", w->name, 1 + w->shell, w->hub.y, w->hub.z, w->hub.x);
     }
-    add_roll(&o, v);
-    for (int i = VIEWS; i < JSON; i++) fclose(o.text[i].f);
+    int times = add_roll(&o, v);
+    for (int i = 0; i < LISTS; i++) text_close(&o.list[i]);
 
-    FILE *f = o.text[JSON].f;
+    FILE *f = json.f;
     fputs("{\"asset\":{\"version\":\"2.0\",\"generator\":\"staffage-cast\",\"copyright\":\"CC0-1.0\"},", f);
     fputs("\"extensionsUsed\":[\"KHR_materials_clearcoat\"", f);
-    if (strstr(o.text[MATERIALS].data, "transmission")) fputs(",\"KHR_materials_transmission\"", f);
-    fprintf(f, "],\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"buffers\":[{\"byteLength\":%zu}],\"bufferViews\":[%s],\"accessors\":[%s],\"meshes\":[%s],", o.size,
-            o.text[VIEWS].data, o.text[ACCESSORS].data, o.text[MESHES].data);
-    fprintf(f, "\"materials\":[%s],\"nodes\":[%s],\"animations\":[{\"name\":\"roll\",\"channels\":[%s],\"samplers\":[%s],\"extras\":{\"roll_m\":%.6g}}]}",
-            o.text[MATERIALS].data, o.text[NODES].data, o.text[CHANNELS].data, o.text[SAMPLERS].data, 2 * PI * v->wheel[0].radius);
-    bool good = write_glb(path, &o, err);
-    for (int i = 0; i < TEXTS; i++) free(o.text[i].data);
-    return good;
+    if (strstr(o.list[MATERIALS].data, "transmission")) fputs(",\"KHR_materials_transmission\"", f);
+    fputs("],\"scene\":0,\"scenes\":[{\"nodes\":[0]}],", f);
+    glb_lists(&o.glb, f);
+    fprintf(f, "\"meshes\":[%s],\"materials\":[%s],\"nodes\":[%s],", o.list[MESHES].data, o.list[MATERIALS].data, o.list[NODES].data);
+    fprintf(f, "\"animations\":[{\"name\":\"roll\",\"channels\":[%s],\"samplers\":[{\"input\":%d,\"output\":%d}],\"extras\":{\"roll_m\":%.6g}}]}",
+            o.list[CHANNELS].data, times, times + 1, 2 * PI * v->wheel[0].radius);
+    for (int i = 0; i < LISTS; i++) free(o.list[i].data);
+    return glb_write(path, &o.glb, &json, err);
 }
 
 void vehicle_release(struct vehicle *v)

@@ -197,11 +197,11 @@ nodist_EXTRA_tests_gen_casting_test_SOURCES = dummy.cxx
 tests_gen_casting_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/cast/people.test
-tests_cast_people_test_SOURCES = %D%/cast/people.c %D%/tap.h
+tests_cast_people_test_SOURCES = %D%/cast/people.c %D%/cast/surface.h %D%/tap.h
 nodist_EXTRA_tests_cast_people_test_SOURCES = dummy.cxx
 tests_cast_people_test_LDADD = $(GEN_LIBS)
 check_PROGRAMS += tests/cast/vehicles.test
-tests_cast_vehicles_test_SOURCES = %D%/cast/vehicles.c %D%/tap.h
+tests_cast_vehicles_test_SOURCES = %D%/cast/surface.h %D%/cast/vehicles.c %D%/tap.h
 nodist_EXTRA_tests_cast_vehicles_test_SOURCES = dummy.cxx
 tests_cast_vehicles_test_LDADD = $(GEN_LIBS)
 

@@ -3,6 +3,7 @@
 #include "gen/model/gltf.h"
 #include "gen/model/rig.h"
 #include "gen/motion/gait.h"
+#include "tests/cast/surface.h"
 #include "tests/tap.h"
 
 #include <math.h>
@@ -17,66 +18,6 @@ static const struct { const char *name; double stature_m; } statures[] = {
     { "woman-heavy", 1.62 }, { "boy-6", 1.16 }, { "girl-9", 1.325 }
 };
 static const char *const paces[] = { "walk", "slow_walk", "run", "stand" };
-
-/* --- surfaces --- */
-
-struct side { float a[3], b[3]; int way; };
-
-static int by_ends(const void *x, const void *y)
-{
-    const struct side *p = x, *q = y;
-    int order = memcmp(p->a, q->a, sizeof p->a);
-    return order ? order : memcmp(p->b, q->b, sizeof p->b);
-}
-
-/* Sides of triangles that have no other triangle on their other side. */
-static size_t open_sides(const struct model *m)
-{
-    size_t count = 0, open = 0;
-    for (size_t i = 0; i < m->mesh_count; i++) count += 3 * m->meshes[i].triangles;
-    struct side *sides = calloc(count + 1, sizeof *sides);
-    size_t n = 0;
-    for (size_t i = 0; sides && i < m->mesh_count; i++)
-        for (size_t t = 0; t < m->meshes[i].triangles; t++)
-            for (int k = 0; k < 3; k++) {
-                const float *a = m->meshes[i].position_m[m->meshes[i].triangle[t][k]], *b = m->meshes[i].position_m[m->meshes[i].triangle[t][(k + 1) % 3]];
-                bool ahead = memcmp(a, b, 3 * sizeof *a) < 0;
-                struct side *s = &sides[n++];
-                memcpy(s->a, ahead ? a : b, sizeof s->a);
-                memcpy(s->b, ahead ? b : a, sizeof s->b);
-                s->way = ahead ? 1 : -1;
-            }
-    qsort(sides, n, sizeof *sides, by_ends);
-    for (size_t i = 0, j; i < n; i = j) {
-        int sum = 0;
-        for (j = i; j < n && by_ends(&sides[i], &sides[j]) == 0; j++) sum += sides[j].way;
-        open += sum != 0;
-    }
-    free(sides);
-    return open;
-}
-
-static struct vec3 point(const float (*p)[3], uint32_t i) { return vec3((double)p[i][0], (double)p[i][1], (double)p[i][2]); }
-
-static void check_surface(const struct model *m, const char *name)
-{
-    size_t corners = 0, inward = 0, thin = 0;
-    double volume = 0;
-    for (size_t i = 0; i < m->mesh_count; i++) {
-        const struct mesh *mesh = &m->meshes[i];
-        const float(*p)[3] = (const float(*)[3])m->rig->meshes[i].position, (*n)[3] = (const float(*)[3])m->rig->meshes[i].normal; /* as bound */
-        for (size_t t = 0; t < mesh->triangles; t++) {
-            const uint32_t *at = mesh->triangle[t];
-            struct vec3 a = point(p, at[0]), b = point(p, at[1]), c = point(p, at[2]), face = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
-            volume += vec3_dot(a, vec3_cross(b, c)) / 6;
-            thin += vec3_norm(face) < 1e-9;
-            for (int k = 0; k < 3; k++) inward += !(vec3_dot(face, point(n, at[k])) >= 0), corners++;
-        }
-    }
-    OK(open_sides(m) == 0, "%s is closed (%zu open sides)", name, open_sides(m));
-    OK(thin == 0, "%s has no degenerate triangle (%zu)", name, thin);
-    OK(inward * 50 < corners && volume > 0, "%s: normals look outward (%zu of %zu do not), so do triangles (%.4f m3)", name, inward, corners, volume);
-}
 
 /* --- poses --- */
 
@@ -185,7 +126,7 @@ static void check_person(const struct catalogue_model *listed, size_t number)
         size_t triangles = 0;
         for (size_t i = 0; i < m->mesh_count; i++) triangles += m->meshes[i].triangles;
         OK((int)triangles == listed->triangles[detail], "%s: %zu triangles, as listed", name, triangles);
-        check_surface(m, name);
+        check_surface(m, name, true);
         check_weights(listed->files[detail], name);
         check_loops(m->rig, name);
         if (detail == DETAIL_NEAR) check_size(m, listed);
