@@ -4,6 +4,7 @@
 #include "cast/motion.h"
 #include "cast/need.h"
 #include "cast/person.h"
+#include "cast/pose.h"
 #include "cast/skin_glb.h"
 #include "cast/texture.h"
 #include "lib/file.h"
@@ -161,12 +162,7 @@ static struct vec3 standing_size(const struct hull *hull, const struct wardrobe 
     }
     for (size_t i = 0; i < hull->points; i++) {
         const struct garment *g = &wardrobe->garment[hull->piece[i]];
-        double w[JOINT_COUNT] = { 0 };
-        struct vec3 p = { 0, 0, 0 };
-        if (g->joint >= 0) w[g->joint] = 1;
-        else bind_point(w, body, hull->point[i], g->drape);
-        for (int j = 0; j < JOINT_COUNT; j++)
-            if (w[j] > 0) p = vec3_add(p, vec3_scale(pose_apply(at[j], vec3_sub(hull->point[i], body->at[j])), w[j]));
+        struct vec3 p = pose_point(at, body, g, hull->point[i]);
         low = vec3(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
         high = vec3(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
     }

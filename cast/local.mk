@@ -26,6 +26,7 @@ staffage_cast_SOURCES = \
   %D%/part.c %D%/part.h \
   %D%/people.c \
   %D%/person.h \
+  %D%/pose.c %D%/pose.h \
   %D%/rider.c %D%/rider.h \
   %D%/shell.c %D%/shell.h \
   %D%/shell_cut.c \

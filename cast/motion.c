@@ -1,15 +1,9 @@
 #include "cast/motion.h"
 
+#include "cast/pose.h"
+
 #include <assert.h>
 #include <string.h>
-
-static double radians(double deg) { return deg * M_PI / 180; }
-
-/* A turn about the left axis that lifts what points forward; and the other two. */
-static struct mat3 lift(double angle) { return mat3_from_quat((struct quat){ cos(angle / 2), 0, -sin(angle / 2), 0 }); }
-static struct mat3 turn_left(double angle) { return mat3_from_quat((struct quat){ cos(angle / 2), 0, 0, sin(angle / 2) }); }
-static struct mat3 lean_right(double angle) { return mat3_from_quat((struct quat){ cos(angle / 2), sin(angle / 2), 0, 0 }); }
-static struct mat3 then(struct mat3 outer, struct mat3 inner) { return mat3_multiply(outer, inner); }
 
 #define CURVE(k) { k, (int)(sizeof k / sizeof *k) }
 
@@ -41,14 +35,7 @@ static const struct gait {
               0.030, 0.165, 8, 0.008, 8, 3.5, 32, 82, 14, 0.35 },
 };
 
-struct pose_now { struct mat3 turn[JOINT_COUNT]; struct vec3 hips; }; /* against the world */
-
 static double leg_length(const struct body *b) { return b->at[LIMB(0, HIP)].z; }
-
-static struct vec3 hip_of(const struct pose_now *pose, const struct body *b, int side)
-{
-    return vec3_add(pose->hips, mat3_apply(pose->turn[HIPS], vec3_sub(b->at[LIMB(side, HIP)], b->at[HIPS])));
-}
 
 /* What makes each move in a way of his own: from -1 to 1. */
 static double habit(const struct person *person, int which)
@@ -60,7 +47,7 @@ static double habit(const struct person *person, int which)
 }
 
 /* From the bound arm to one that hangs, free of hips and clothes; angles out, forward, elbow, how far it is turned in. */
-static void pose_arm(struct pose_now *pose, const struct body *b, int side, double out, double forward, double bend, double in)
+static void pose_arm(struct body_pose *pose, const struct body *b, int side, double out, double forward, double bend, double in)
 {
     double way = side ? -1 : 1;
     struct mat3 down = lean_right(way * (out - radians(21)));
@@ -83,7 +70,7 @@ static double arm_out(const struct body *b)
 }
 
 /* What hangs from a hand hangs down; an umbrella is held up. */
-static void pose_held(struct pose_now *pose, const struct person *person, const struct body *b, double swing)
+static void pose_held(struct body_pose *pose, const struct person *person, const struct body *b, double swing)
 {
     pose->turn[HELD] = then(turn_left(radians(10)), lift(swing));
     if (person->carried != UMBRELLA) return;
@@ -93,7 +80,7 @@ static void pose_held(struct pose_now *pose, const struct person *person, const 
 }
 
 /* Hands that do something else than swing. sway: -1 to 1, with the steps. */
-static void pose_hands(struct pose_now *pose, const struct person *person, const struct body *b, double sway)
+static void pose_hands(struct body_pose *pose, const struct person *person, const struct body *b, double sway)
 {
     for (int side = 0; side < 2 && person->hands == IN_POCKETS; side++)
         pose_arm(pose, b, side, arm_out(b) + radians(9), radians(-10 + 2 * sway * (side ? -1 : 1)), radians(42 + 4 * habit(person, 23 + side)), radians(20));
@@ -105,7 +92,7 @@ static void pose_hands(struct pose_now *pose, const struct person *person, const
 }
 
 /* Trunk and arms at a part p of the loop, which begins as the left foot comes down. */
-static void pose_trunk(struct pose_now *pose, const struct person *person, const struct body *b, const struct gait *g, double p)
+static void pose_trunk(struct body_pose *pose, const struct person *person, const struct body *b, const struct gait *g, double p)
 {
     double a = 2 * M_PI * p, lean = radians(g->lean + 1.2 * habit(person, 0)), yaw = radians(g->yaw), leg = leg_length(b);
     bool female = b->measures.sex == FEMALE;
@@ -129,51 +116,29 @@ static void pose_trunk(struct pose_now *pose, const struct person *person, const
 }
 
 /* How high the hips may be for a leg of the given share of its length to reach the ankle. */
-static double reach(const struct pose_now *pose, const struct body *b, struct vec3 ankle, int side, double share)
+static double reach(const struct body_pose *pose, const struct body *b, struct vec3 ankle, int side, double share)
 {
     const struct vec3 *at = &b->at[LIMB(side, 0)];
     double leg = share * (vec3_norm(vec3_sub(at[KNEE], at[THIGH])) + vec3_norm(vec3_sub(at[FOOT], at[KNEE])));
-    struct vec3 hip = hip_of(pose, b, side);
+    struct vec3 hip = pose_place(pose, b, LIMB(side, HIP));
     double x = hip.x - ankle.x, y = hip.y - ankle.y, room = leg * leg - x * x - y * y;
     assert(room > 0);
     return ankle.z + sqrt(room) - (hip.z - pose->hips.z);
 }
 
-static struct mat3 frame(struct vec3 along, struct vec3 hinge) { return mat3_from_columns(along, hinge, vec3_cross(along, hinge)); }
-
-/* Two bones, as lift() would bend them, from the hip to the ankle. foot: how its toes point out. */
-static void pose_leg(struct pose_now *pose, const struct body *b, struct vec3 ankle, int side, double pitch, double bend, double out_rad)
+/* foot: how its toes point out. */
+static void pose_leg(struct body_pose *pose, const struct body *b, struct vec3 ankle, int side, double pitch, double bend, double out_rad)
 {
-    const struct vec3 *at = &b->at[LIMB(side, 0)];
-    double way_out = side ? -1 : 1, thigh = vec3_norm(vec3_sub(at[KNEE], at[THIGH])), shin = vec3_norm(vec3_sub(at[FOOT], at[KNEE]));
-    struct vec3 bound = vec3_unit(vec3_sub(at[FOOT], at[THIGH])), hinge_bound = vec3_unit(vec3_cross(vec3(1, 0, 0), bound));
-    struct vec3 way = vec3_sub(ankle, hip_of(pose, b, side));
-    double length = fmin(vec3_norm(way), 0.9995 * (thigh + shin));
-    struct vec3 down = vec3_unit(way), ahead = mat3_apply(turn_left(way_out * (0.7 * out_rad)), mat3_column(pose->turn[HIPS], 0));
-    struct vec3 hinge = vec3_unit(vec3_cross(ahead, down)), front = vec3_cross(down, hinge);
-    double c = (thigh * thigh + length * length - shin * shin) / (2 * thigh * length), angle = acos(fmin(fmax(c, -1), 1));
-    struct vec3 upper = vec3_add(vec3_scale(down, cos(angle)), vec3_scale(front, sin(angle)));
-    struct vec3 lower = vec3_unit(vec3_sub(vec3_scale(down, length), vec3_scale(upper, thigh)));
-    pose->turn[LIMB(side, THIGH)] = then(frame(upper, hinge), mat3_transpose(frame(vec3_unit(vec3_sub(at[KNEE], at[THIGH])), hinge_bound)));
-    pose->turn[LIMB(side, SHIN)] = then(frame(lower, hinge), mat3_transpose(frame(vec3_unit(vec3_sub(at[FOOT], at[KNEE])), hinge_bound)));
+    double way_out = side ? -1 : 1;
+    struct vec3 ahead = mat3_apply(turn_left(way_out * (0.7 * out_rad)), mat3_column(pose->turn[HIPS], 0));
+    pose_bones(pose, b, LIMB(side, THIGH), LIMB(side, SHIN), LIMB(side, FOOT), pose_place(pose, b, LIMB(side, HIP)), ankle, ahead, vec3(1, 0, 0));
     pose->turn[LIMB(side, FOOT)] = then(turn_left(way_out * out_rad), lift(pitch));
     pose->turn[LIMB(side, TOES)] = then(pose->turn[LIMB(side, FOOT)], lift(bend));
 }
 
-static struct mat3 half_way(struct mat3 a, struct mat3 b)
+static void write_key(struct clip *clip, struct body_pose *pose, int key)
 {
-    struct quat q = quat_from_mat3(then(mat3_transpose(a), b)); /* w >= 0 */
-    return then(a, mat3_from_quat((struct quat){ q.w + 1, q.x, q.y, q.z }));
-}
-
-static void write_key(struct clip *clip, struct pose_now *pose, int key)
-{
-    for (int side = 0; side < 2; side++) {
-        struct mat3 *turn = &pose->turn[LIMB(side, 0)];
-        turn[ELBOW] = half_way(turn[UPPER_ARM], turn[FOREARM]);
-        turn[KNEE] = half_way(turn[THIGH], turn[SHIN]);
-        turn[HIP] = half_way(pose->turn[HIPS], turn[THIGH]);
-    }
+    pose_halves(pose);
     clip->hips[key] = pose->hips;
     for (int j = 0; j < JOINT_COUNT; j++) {
         int parent = joint_parent(j);
@@ -190,7 +155,7 @@ static struct vec3 ankle_of(const struct body *b, const struct gait *g, const st
 static void make_gait(struct clip *clip, const struct gait *g, const struct person *person, const struct body *b, const struct sole *sole)
 {
     struct step steps[2][STEPS];
-    struct pose_now pose = { 0 };
+    struct body_pose pose = { 0 };
     double leg = leg_length(b), height = 1e9, toes_out = radians(5 + 3 * habit(person, 8));
     clip->name = g->name;
     clip->stride_m = g->stride * leg * (1 + 0.03 * habit(person, 9));
@@ -231,7 +196,7 @@ static void make_stand(struct clip *clip, const struct person *person, const str
     clip->duration_s = 7 + 1.5 * habit(person, 12);
     clip->stride_m = 0;
     clip->keys = 32;
-    struct pose_now pose = { 0 };
+    struct body_pose pose = { 0 };
     for (int key = 0; key <= clip->keys; key++) {
         double p = (double)(key % clip->keys) / clip->keys, a = 2 * M_PI * p;
         double on = mirror * curve_at(weight, 6, p), breath = sin(3 * a), height = 1e9;
