@@ -305,7 +305,7 @@ void car_body(struct shell *body, const struct car_spec *spec, enum level level)
         }
         if (level == NEAR) shell_sink(&s, LAMP_REGION + i, d->trace == LAMP_HOUSE ? TRIM_COAT : d->coat, inward, &d->depth);
         for (size_t f = 0; f < s.faces_count; f++)
-            if (s.faces[f].material == LAMP_REGION + i) s.faces[f].material = (uint8_t)(level == MIDDLE && d->trace == LAMP_HOUSE ? LAMP : d->coat);
+            if (s.faces[f].material == LAMP_REGION + i) s.faces[f].material = (uint8_t)d->coat;
     }
     for (int a = 0; a < 2; a++) {
         struct vec3 middle = vec3(spec->axle_x[a], spec->arch_inner_y, coach.axle_z);

@@ -108,6 +108,41 @@ static double root(const struct shell *s, const struct form *near, double level,
     return t;
 }
 
+/* Between two points of one side: where the function comes closest to the other side, if it gets there. */
+static bool dips(double *t, const struct shell *s, const struct form *near, double level, uint32_t a, uint32_t b, double va)
+{
+    const double golden = 0.381966;
+    double side = va < 0 ? -1 : 1, low = 0, high = 1, at[2] = { golden, 1 - golden }, v[2];
+    for (int k = 0; k < 2; k++) v[k] = side * (form_at(near, vec3_add(vec3_scale(s->p[a], 1 - at[k]), vec3_scale(s->p[b], at[k]))) - level);
+    for (int i = 0; i < 6 && fmin(v[0], v[1]) >= 0; i++) {
+        int worse = v[0] < v[1];
+        if (worse) high = at[1], at[1] = at[0], v[1] = v[0], at[0] = low + golden * (high - low);
+        else low = at[0], at[0] = at[1], v[0] = v[1], at[1] = high - golden * (high - low);
+        int new = !worse;
+        v[new] = side * (form_at(near, vec3_add(vec3_scale(s->p[a], 1 - at[new]), vec3_scale(s->p[b], at[new]))) - level);
+    }
+    *t = at[v[1] < v[0]];
+    return fmin(v[0], v[1]) < 0;
+}
+
+/* What is narrower than a face must not slip between its corners. */
+static void find_narrow(struct shell *s, const struct form *solid, const struct form *near, double level)
+{
+    double *value = need(malloc((s->points + 1) * sizeof *value));
+    struct edge_map map = map_for(s);
+    for (size_t i = 0; i < s->points; i++) value[i] = form_at(near, s->p[i]) - level;
+    for (size_t c = 0; c < 3 * s->faces_count; c++) {
+        uint32_t a = s->faces[c / 3].v[c % 3], b = s->faces[c / 3].v[(c % 3 + 1) % 3];
+        if (a > b) { uint32_t keep = a; a = b, b = keep; }
+        double length = vec3_norm(vec3_sub(s->p[a], s->p[b])), t;
+        if (value[a] * value[b] <= 0 || length < 0.03 || fabs(value[a]) + fabs(value[b]) > length) continue;
+        uint32_t *at = slot(&map, edge_key(a, b));
+        if (*at == UINT32_MAX && dips(&t, s, near, level, a, b, value[a])) *at = point_on(s, solid, a, b, t);
+    }
+    free(value);
+    apply(s, &map);
+}
+
 /* Points that would squeeze a face flat stay where they are. */
 static void spare_faces(const struct shell *s, double *best, const struct vec3 *to)
 {
@@ -132,6 +167,7 @@ static void spare_faces(const struct shell *s, double *best, const struct vec3 *
 
 void shell_cut(struct shell *s, const struct form *solid, const struct form *near, double level)
 {
+    find_narrow(s, solid, near, level);
     size_t points = s->points;
     double *value = need(malloc((points + 1) * sizeof *value)), *best = need(malloc((points + 1) * sizeof *best));
     struct vec3 *to = need(malloc((points + 1) * sizeof *to));

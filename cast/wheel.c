@@ -53,13 +53,11 @@ static void add_rim(struct shell *s, const struct wheel_spec *w, double middle_y
     switch (w->rim) {
     case ALLOY_RIM:
         add_disc(s, r, y - 0.1 * h, 0.02, 0, n, RIM_DARK);
-        if (level == NEAR) add_disc(s, 0.66 * r, y + 0.05 * h, 0.02, 0, n, STEEL);
+        add_disc(s, 0.66 * r, y + 0.05 * h, 0.02, 0, n, STEEL);
         for (int k = 0; k < w->spokes; k++) {
-            double a = 2 * PI * (k + 0.5) / w->spokes, fork = level == NEAR ? 0.11 * PI * 5 / w->spokes : 0;
-            if (level == NEAR)
-                for (int side = -1; side <= 1; side += 2)
-                    add_spoke(s, a + side * fork, 0.16 * r, 1.01 * r, 0.030, 0.022, y + 0.66 * h, 0.035, w->coat);
-            else add_spoke(s, a, 0.16 * r, r, 0.05, 0.075, y + 0.66 * h, 0.03, w->coat);
+            double a = 2 * PI * (k + 0.5) / w->spokes, fork = 0.11 * PI * 5 / w->spokes;
+            for (int side = -1; side <= 1; side += 2)
+                add_spoke(s, a + side * fork, 0.16 * r, 1.01 * r, 0.030, 0.022, y + 0.66 * h, 0.035, w->coat);
         }
         add_disc(s, 0.28 * r, y + 0.68 * h, 0.05, 0.008, level == NEAR ? n / 2 : 8, w->coat);
         if (level == NEAR) add_disc(s, 0.13 * r, y + 0.70 * h, 0.02, 0.006, n / 2, TRIM_COAT);
