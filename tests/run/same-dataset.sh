@@ -1,5 +1,5 @@
 # same_dataset A B: every picture decodes to the same pixels, every label file has the same bytes.
-# Needs ./same-pixels.
+# Needs ./same-pixels, which is asked where a picture's bytes differ.
 same_dataset() {
     ( cd "$1" && find . -path ./frames/home -prune -o -type f -print | sort ) >names
     ( cd "$2" && find . -path ./frames/home -prune -o -type f -print | sort ) >others
@@ -10,7 +10,7 @@ same_dataset() {
 same_files() {
     while read -r name; do
         case $name in
-        *.png|*.exr) ./same-pixels "$1/$name" "$2/$name" ;;
+        *.png|*.exr) cmp -s "$1/$name" "$2/$name" || ./same-pixels "$1/$name" "$2/$name" ;;
         *) cmp "$1/$name" "$2/$name" ;;
         esac || return 1
     done
