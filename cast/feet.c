@@ -70,6 +70,13 @@ static size_t lowest(double *z, const struct sole *sole, double pitch, double be
     return best;
 }
 
+double foot_low(const struct sole *sole, double pitch, double bend)
+{
+    double z;
+    lowest(&z, sole, pitch, bend);
+    return z;
+}
+
 /* The foot lies flat under the body; from there it rolls over its lowest point, forward and back in time. */
 static void stand(struct step *step, const struct sole *sole, int flat, int last, double advance, double under_x)
 {

@@ -26,6 +26,8 @@ struct step { double x, z, pitch, bend; }; /* of the ankle, from below the hips;
 
 /* Out: step (STEPS) */
 void roll_foot(struct step *step, const struct sole *sole, const struct roll *roll, double stride_m, double leg_m, double under_x);
+/* How high above the ankle the lowest point of a foot lies: below 0. */
+double foot_low(const struct sole *sole, double pitch, double bend);
 /* Between two of them. */
 struct step step_at(const struct step *step, double part);
 

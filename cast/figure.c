@@ -171,7 +171,7 @@ static struct vec3 standing_size(const struct hull *hull, const struct wardrobe 
 
 static bool list_person(struct listing *listing, const struct person *person, struct vec3 size, const size_t count[3], struct error *err)
 {
-    static const char *const animations[] = { "walk", "slow_walk", "run", "stand", NULL };
+    static const char *const animations[] = { "walk", "slow_walk", "run", "stand", "halt", NULL };
     char file[3][64];
     for (int level = 0; level < 3; level++) snprintf(file[level], sizeof file[level], "%s%s.glb", person->name, suffix[level]);
     struct listed listed = { .name = person->name, .class_ = "person", .kind = "person", .file = file[0], .middle = file[1], .far = file[2],

@@ -35,6 +35,9 @@ static const struct gait {
               0.030, 0.165, 8, 0.008, 8, 3.5, 32, 82, 14, 0.35 },
 };
 
+/* How high a foot is lifted to be set down beside the other: share of the leg. */
+#define HALT_LIFT 0.035
+
 static double leg_length(const struct body *b) { return b->at[LIMB(0, HIP)].z; }
 
 /* What makes each move in a way of his own: from -1 to 1. */
@@ -152,75 +155,144 @@ static struct vec3 ankle_of(const struct body *b, const struct gait *g, const st
     return vec3(step->x, b->at[LIMB(side, HIP)].y * g->narrow, step->z);
 }
 
-static void make_gait(struct clip *clip, const struct gait *g, const struct person *person, const struct body *b, const struct sole *sole)
+static double toes_out(const struct person *person) { return radians(5 + 3 * habit(person, 8)); }
+
+/* One who walks: his feet over the loop, and how high his hips are in the mean. */
+struct walker { const struct gait *gait; struct step steps[2][STEPS]; double stride_m, height_m, toes_out; };
+
+static double rise(const struct gait *g, double leg, double p) { return -g->bounce * leg * cos(4 * M_PI * (p - g->low)); }
+
+static void make_walker(struct walker *w, const struct gait *g, const struct person *person, const struct body *b, const struct sole *sole)
 {
-    struct step steps[2][STEPS];
     struct body_pose pose = { 0 };
-    double leg = leg_length(b), height = 1e9, toes_out = radians(5 + 3 * habit(person, 8));
-    clip->name = g->name;
-    clip->stride_m = g->stride * leg * (1 + 0.03 * habit(person, 9));
-    clip->duration_s = clip->stride_m / sqrt(g->froude * 9.81 * leg);
-    clip->keys = MOST_KEYS;
-    for (int side = 0; side < 2; side++) roll_foot(steps[side], &sole[side], &g->roll, clip->stride_m, leg, b->at[HIPS].x + (g->lean > 5 ? 0.03 : 0.0) * leg);
-#define RISE(p) (-g->bounce * leg * cos(4 * M_PI * ((p) - g->low)))
+    double leg = leg_length(b);
+    w->gait = g;
+    w->stride_m = g->stride * leg * (1 + 0.03 * habit(person, 9));
+    w->height_m = 1e9, w->toes_out = toes_out(person);
+    for (int side = 0; side < 2; side++) roll_foot(w->steps[side], &sole[side], &g->roll, w->stride_m, leg, b->at[HIPS].x + (g->lean > 5 ? 0.03 : 0.0) * leg);
     /* As high as lets the standing legs reach the ground. */
     for (int i = 0; i < STEPS; i++) {
         double p = (double)i / STEPS;
         pose_trunk(&pose, person, b, g, p);
         for (int side = 0; side < 2; side++) {
             double part = p + 0.5 * side;
-            struct step step = step_at(steps[side], part);
+            struct step step = step_at(w->steps[side], part);
             bool stands = part - floor(part) <= g->roll.stands;
-            height = fmin(height, reach(&pose, b, ankle_of(b, g, &step, side), side, stands ? (g->lean > 5 ? 1.0 : 0.998) : 0.9995) - RISE(p));
+            w->height_m = fmin(w->height_m, reach(&pose, b, ankle_of(b, g, &step, side), side, stands ? (g->lean > 5 ? 1.0 : 0.998) : 0.9995) - rise(g, leg, p));
         }
     }
-    for (int key = 0; key <= clip->keys; key++) {
-        double p = (double)(key % clip->keys) / clip->keys;
-        pose_trunk(&pose, person, b, g, p);
-        pose.hips.z = height + RISE(p);
-        for (int side = 0; side < 2; side++) {
-            struct step step = step_at(steps[side], p + 0.5 * side);
-            pose_leg(&pose, b, ankle_of(b, g, &step, side), side, step.pitch, step.bend, toes_out);
-        }
-        write_key(clip, &pose, key);
-    }
-#undef RISE
 }
 
-/* Stand on both feet, the weight on one and then on the other; look around a little. */
-static void make_stand(struct clip *clip, const struct person *person, const struct body *b)
+static void pose_walker(struct body_pose *pose, const struct walker *w, const struct person *person, const struct body *b, double p)
+{
+    pose_trunk(pose, person, b, w->gait, p);
+    pose->hips.z = w->height_m + rise(w->gait, leg_length(b), p);
+    for (int side = 0; side < 2; side++) {
+        struct step step = step_at(w->steps[side], p + 0.5 * side);
+        pose_leg(pose, b, ankle_of(b, w->gait, &step, side), side, step.pitch, step.bend, w->toes_out);
+    }
+}
+
+static void make_gait(struct clip *clip, const struct gait *g, const struct person *person, const struct body *b, const struct sole *sole)
+{
+    struct walker walker;
+    struct body_pose pose = { 0 };
+    make_walker(&walker, g, person, b, sole);
+    clip->name = g->name;
+    clip->stride_m = walker.stride_m;
+    clip->duration_s = walker.stride_m / sqrt(g->froude * 9.81 * leg_length(b));
+    clip->keys = MOST_KEYS;
+    for (int key = 0; key <= clip->keys; key++) {
+        pose_walker(&pose, &walker, person, b, (double)(key % clip->keys) / clip->keys);
+        write_key(clip, &pose, key);
+    }
+}
+
+/* The foot that is ahead when one stands is the one that stays as he halts: where it is in the middle of its step. */
+static int first_foot(const struct person *person) { return habit(person, 10) > 0 ? 0 : 1; }
+
+/* Stand on both feet, the weight on one and then on the other; look around a little. p: from 0 to 1
+ * Out: out_rad (2) how the feet point out, ankle (2) */
+static void pose_stander(struct body_pose *pose, struct vec3 *ankle, double *out_rad, const struct person *person, const struct body *b, double p)
 {
     static const double weight[][2] = { { 0, 1 }, { 0.30, 0.85 }, { 0.45, -0.7 }, { 0.60, -1 }, { 0.82, -0.8 }, { 1, 1 } }; /* 1: on the left foot */
-    double leg = leg_length(b), mirror = habit(person, 10) > 0 ? 1 : -1, ahead = 0.045 * leg * (1 + 0.8 * habit(person, 11));
+    int first = first_foot(person);
+    double leg = leg_length(b), mirror = first ? -1 : 1, ahead = 0.045 * leg * (1 + 0.8 * habit(person, 11)), a = 2 * M_PI * p;
+    double on = mirror * curve_at(weight, 6, p), breath = sin(3 * a), height = 1e9;
+    double roll = radians(3.6 * on), turn = radians(4 * on + 4 * habit(person, 13));
+    pose->turn[HIPS] = then(turn_left(0.7 * turn), then(lean_right(roll), lift(radians(1))));
+    pose->turn[SPINE] = then(turn_left(0.4 * turn), lean_right(0.2 * roll));
+    pose->turn[CHEST] = then(turn_left(-0.4 * turn), then(lean_right(-0.8 * roll), lift(radians(1 + 0.5 * breath))));
+    pose->turn[NECK] = then(turn_left(radians(6 * sin(a + 1))), lift(radians(-2)));
+    pose->turn[HEAD] = then(turn_left(radians(7 * habit(person, 14) + 13 * sin(a + 1) + 4 * sin(2 * a))), then(lean_right(radians(2.5 * on)), lift(radians(-5 + 4 * habit(person, 15) + 2 * sin(a)))));
+    for (int side = 0; side < 2; side++) {
+        double way = side ? -1 : 1, easy = 0.5 - 0.5 * way * on;
+        pose_arm(pose, b, side, arm_out(b) + radians(2 * easy), radians(3 + 5 * habit(person, 16 + side) + 2.5 * easy), radians(11 + 6 * habit(person, 18 + side) + 3 * sin(a + side)), radians(12));
+    }
+    pose_hands(pose, person, b, 0.5 * sin(a));
+    pose_held(pose, person, b, radians(2 * sin(a)));
+    /* The foot that is ahead lies as it does in the middle of a step. */
+    struct vec3 at[2], shift;
+    for (int side = 0; side < 2; side++) {
+        double way = side ? -1 : 1;
+        out_rad[side] = side == first ? toes_out(person) : radians(9 + 5 * habit(person, 21 + side));
+        at[side] = vec3(b->at[LIMB(side, FOOT)].x + way * mirror * ahead, b->at[LIMB(side, FOOT)].y * (1.0 + 0.12 * habit(person, 20)), b->at[LIMB(side, FOOT)].z);
+    }
+    shift = vec3(b->at[HIPS].x - at[first].x, b->at[LIMB(first, HIP)].y * gaits[WALK].narrow - at[first].y, 0);
+    pose->hips = vec3_add(vec3(b->at[HIPS].x - 0.01, 0.045 * leg * on, 0), shift);
+    for (int side = 0; side < 2; side++) {
+        ankle[side] = vec3_add(at[side], shift);
+        height = fmin(height, reach(pose, b, ankle[side], side, 0.996));
+    }
+    pose->hips.z = height;
+    for (int side = 0; side < 2; side++) pose_leg(pose, b, ankle[side], side, 0, 0, out_rad[side]);
+}
+
+static void make_stand(struct clip *clip, const struct person *person, const struct body *b)
+{
+    struct body_pose pose = { 0 };
+    struct vec3 ankle[2];
+    double out_rad[2];
     clip->name = "stand";
     clip->duration_s = 7 + 1.5 * habit(person, 12);
-    clip->stride_m = 0;
     clip->keys = 32;
-    struct body_pose pose = { 0 };
     for (int key = 0; key <= clip->keys; key++) {
-        double p = (double)(key % clip->keys) / clip->keys, a = 2 * M_PI * p;
-        double on = mirror * curve_at(weight, 6, p), breath = sin(3 * a), height = 1e9;
-        double roll = radians(3.6 * on), turn = radians(4 * on + 4 * habit(person, 13));
-        pose.turn[HIPS] = then(turn_left(0.7 * turn), then(lean_right(roll), lift(radians(1))));
-        pose.turn[SPINE] = then(turn_left(0.4 * turn), lean_right(0.2 * roll));
-        pose.turn[CHEST] = then(turn_left(-0.4 * turn), then(lean_right(-0.8 * roll), lift(radians(1 + 0.5 * breath))));
-        pose.turn[NECK] = then(turn_left(radians(6 * sin(a + 1))), lift(radians(-2)));
-        pose.turn[HEAD] = then(turn_left(radians(7 * habit(person, 14) + 13 * sin(a + 1) + 4 * sin(2 * a))), then(lean_right(radians(2.5 * on)), lift(radians(-5 + 4 * habit(person, 15) + 2 * sin(a)))));
-        pose.hips = vec3(b->at[HIPS].x - 0.01, 0.045 * leg * on, 0);
-        for (int side = 0; side < 2; side++) {
-            double way = side ? -1 : 1, easy = 0.5 - 0.5 * way * on;
-            pose_arm(&pose, b, side, arm_out(b) + radians(2 * easy), radians(3 + 5 * habit(person, 16 + side) + 2.5 * easy), radians(11 + 6 * habit(person, 18 + side) + 3 * sin(a + side)), radians(12));
-        }
-        pose_hands(&pose, person, b, 0.5 * sin(a));
-        pose_held(&pose, person, b, radians(2 * sin(a)));
+        pose_stander(&pose, ankle, out_rad, person, b, (double)(key % clip->keys) / clip->keys);
+        write_key(clip, &pose, key);
+    }
+}
+
+/* From the middle of a step to where standing begins: one foot stays, the other is lifted a little and set down. */
+static void make_halt(struct clip *clip, const struct person *person, const struct body *b, const struct sole *sole)
+{
+    struct walker walker;
+    struct body_pose from = { 0 }, to = { 0 }, pose;
+    struct vec3 set_down[2];
+    double out_rad[2], leg = leg_length(b);
+    int first = first_foot(person), other = !first;
+    make_walker(&walker, &gaits[WALK], person, b, sole);
+    double p = walker.gait->roll.under + 0.5 * first;
+    struct step begin = step_at(walker.steps[other], p + 0.5 * other), stays = step_at(walker.steps[first], p + 0.5 * first);
+    double clear = begin.z + foot_low(&sole[other], begin.pitch, begin.bend);
+    pose_walker(&from, &walker, person, b, p);
+    pose_stander(&to, set_down, out_rad, person, b, 0);
+    clip->name = "halt";
+    clip->duration_s = 0.5 * sqrt(leg / 0.93);
+    clip->keys = 16;
+    for (int key = 0; key <= clip->keys; key++) {
+        double t = (double)key / clip->keys, u = t * t * (3 - 2 * t), pitch = (1 - u) * (1 - u) * begin.pitch, bend = (1 - u) * (1 - u) * begin.bend;
         struct vec3 ankle[2];
+        pose = from;
+        for (int j = 0; j < JOINT_COUNT; j++) pose.turn[j] = turn_between(from.turn[j], to.turn[j], u);
+        pose.hips = vec3_add(vec3_scale(from.hips, 1 - u), vec3_scale(to.hips, u));
         for (int side = 0; side < 2; side++) {
-            double way = side ? -1 : 1;
-            ankle[side] = vec3(b->at[LIMB(side, FOOT)].x + way * mirror * ahead, b->at[LIMB(side, FOOT)].y * (1.0 + 0.12 * habit(person, 20)), b->at[LIMB(side, FOOT)].z);
-            height = fmin(height, reach(&pose, b, ankle[side], side, 0.996));
+            struct step step = side == other ? begin : stays;
+            ankle[side] = vec3_add(vec3_scale(ankle_of(b, walker.gait, &step, side), 1 - u), vec3_scale(set_down[side], u));
         }
-        pose.hips.z = height;
-        for (int side = 0; side < 2; side++) pose_leg(&pose, b, ankle[side], side, 0, 0, radians(9 + 5 * habit(person, 21 + side)));
+        ankle[other].z = (1 - u) * clear + 4 * t * (1 - t) * HALT_LIFT * leg - foot_low(&sole[other], pitch, bend);
+        for (int side = 0; side < 2; side++) pose.hips.z = fmin(pose.hips.z, reach(&pose, b, ankle[side], side, 0.9995));
+        for (int side = 0; side < 2; side++)
+            pose_leg(&pose, b, ankle[side], side, side == other ? pitch : 0, side == other ? bend : 0, (1 - u) * walker.toes_out + u * out_rad[side]);
         write_key(clip, &pose, key);
     }
 }
@@ -229,5 +301,6 @@ void make_clip(struct clip *clip, enum motion motion, const struct person *perso
 {
     memset(clip, 0, sizeof *clip);
     if (motion == STAND) make_stand(clip, person, body);
+    else if (motion == HALT) make_halt(clip, person, body, sole);
     else make_gait(clip, &gaits[motion], person, body, sole);
 }

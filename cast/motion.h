@@ -1,4 +1,4 @@
-/* Loops of motion on the spot: walking, running, standing. */
+/* Motion on the spot: loops of walking, running, standing; and the step that brings one from walking to standing. */
 #ifndef STAFFAGE_CAST_MOTION_H
 #define STAFFAGE_CAST_MOTION_H
 
@@ -6,13 +6,13 @@
 #include "cast/feet.h"
 #include "cast/person.h"
 
-enum motion { WALK, SLOW_WALK, RUN, STAND, MOTION_COUNT };
+enum motion { WALK, SLOW_WALK, RUN, STAND, HALT, MOTION_COUNT };
 enum { MOST_KEYS = 48 };
 
 struct clip {
     const char *name;
     double duration_s, stride_m;                  /* stride: what a loop goes; 0: nowhere */
-    int keys;                                     /* and one more, which is the first again */
+    int keys;                                     /* and one more, which in a loop is the first again */
     struct quat turn[JOINT_COUNT][MOST_KEYS + 1]; /* of a joint against its parent */
     struct vec3 hips[MOST_KEYS + 1];
 };

@@ -17,19 +17,20 @@ void pose_bones(struct body_pose *pose, const struct body *b, int upper, int low
     pose->turn[lower] = then(frame(then_now, hinge), mat3_transpose(frame(vec3_unit(second), hinge_bound)));
 }
 
-static struct mat3 half_way(struct mat3 a, struct mat3 b)
+struct mat3 turn_between(struct mat3 a, struct mat3 b, double share)
 {
     struct quat q = quat_from_mat3(then(mat3_transpose(a), b)); /* w >= 0 */
-    return then(a, mat3_from_quat((struct quat){ q.w + 1, q.x, q.y, q.z }));
+    double half = share * acos(fmin(q.w, 1)), n = sqrt(q.x * q.x + q.y * q.y + q.z * q.z), s = n > 1e-12 ? sin(half) / n : 0;
+    return then(a, mat3_from_quat((struct quat){ cos(half), s * q.x, s * q.y, s * q.z }));
 }
 
 void pose_halves(struct body_pose *pose)
 {
     for (int side = 0; side < 2; side++) {
         struct mat3 *turn = &pose->turn[LIMB(side, 0)];
-        turn[ELBOW] = half_way(turn[UPPER_ARM], turn[FOREARM]);
-        turn[KNEE] = half_way(turn[THIGH], turn[SHIN]);
-        turn[HIP] = half_way(pose->turn[HIPS], turn[THIGH]);
+        turn[ELBOW] = turn_between(turn[UPPER_ARM], turn[FOREARM], 0.5);
+        turn[KNEE] = turn_between(turn[THIGH], turn[SHIN], 0.5);
+        turn[HIP] = turn_between(pose->turn[HIPS], turn[THIGH], 0.5);
     }
 }
 

@@ -16,6 +16,9 @@ static inline struct mat3 turn_left(double angle) { return mat3_from_quat((struc
 static inline struct mat3 lean_right(double angle) { return mat3_from_quat((struct quat){ cos(angle / 2), sin(angle / 2), 0, 0 }); }
 static inline struct mat3 then(struct mat3 outer, struct mat3 inner) { return mat3_multiply(outer, inner); }
 
+/* A share of the way from one turn to another. */
+struct mat3 turn_between(struct mat3 a, struct mat3 b, double share);
+
 /* Two bones from a joint whose place is `from` to a target, which stay as long as they are: the joint between them points to `middle`.
  * Turns `upper` and `lower`, which begin at those joints; `lower` ends at `end`. In: middle_bound  where it points as bound */
 void pose_bones(struct body_pose *pose, const struct body *body, int upper, int lower, int end, struct vec3 from, struct vec3 target, struct vec3 middle,

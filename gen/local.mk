@@ -57,6 +57,7 @@ gen_libgen_a_SOURCES = \
   %D%/moment.c %D%/moment.h \
   %D%/motion/drive.c \
   %D%/motion/gait.c %D%/motion/gait.h \
+  %D%/motion/journey.c %D%/motion/journey.h \
   %D%/motion/repertoire.c %D%/motion/repertoire.h \
   %D%/motion/population.c %D%/motion/population.h \
   %D%/motion/track.c %D%/motion/track.h \

@@ -1,5 +1,7 @@
 #include "gen/moment.h"
 
+#include "gen/model/rig.h"
+#include "gen/motion/journey.h"
 #include "lib/class.h"
 
 #include <math.h>
@@ -48,47 +50,94 @@ static struct vec3 velocity(const struct entity *entity, double speed_m_s, doubl
 }
 
 /* Its rigged model as it is now. */
-static bool pose_entity(struct moment *moment, const struct stage *stage, const struct pace_now *now, struct error *err)
+static bool pose_entity(struct moment *moment, const struct posture *posture, struct error *err)
 {
     struct entity *entity = &moment->entities[moment->n];
     if (!entity->model->rig) return true;
-    struct posture posture = repertoire_posture(&stage->repertoires[moment->model_index[moment->n]], now);
     struct model *posed = &moment->posed[moment->posed_count];
-    if (!model_pose(posed, entity->model, &posture, err)) return false;
+    if (!model_pose(posed, entity->model, posture, err)) return false;
     moment->posed_count++;
     entity->model = posed;
     return true;
+}
+
+/* How one on a path is on his way: where on it, how fast, how far he has gone; from which phase of his gait on; how
+ * long he rests, and how far to the left he stands then. */
+struct progress { double s_m, speed_m_s, gone_m, phase, rest_s, aside_m; };
+
+static double clamp(double x, double low, double high) { return fmin(fmax(x, low), high); }
+
+/* Who comes to an end of the path stands there. */
+static struct progress drive_on(const struct scene_entity *e, double length_m, double time_s)
+{
+    double s = e->start_m + e->speed_m_s * time_s, held = clamp(s, 0, length_m), way_m = held - fmin(e->start_m, length_m);
+    bool ahead = e->speed_m_s > 0 ? s < length_m : s > 0;
+    double speed = ahead && held == s ? fabs(e->speed_m_s) : 0;
+    return (struct progress){ .s_m = held, .speed_m_s = speed, .gone_m = e->speed_m_s < 0 ? -way_m : way_m };
+}
+
+/* Who walks slows down to stand there, and sets out from rest where he was to come from beyond its other end; both as
+ * the foot on the ground is where it is when he stands. */
+static struct progress walk_on(const struct scene_entity *e, const struct repertoire *repertoire, double length_m, double time_s)
+{
+    const struct gait *gait = repertoire_gait(repertoire, e->speed_m_s);
+    bool back = e->speed_m_s < 0;
+    double begin_m = back ? length_m - e->start_m : e->start_m, left_m = length_m - clamp(begin_m, 0, length_m);
+    struct journey journey = { .length_m = left_m, .speed_m_s = fabs(e->speed_m_s), .from_rest = begin_m < 0 };
+    if (journey.from_rest) {
+        time_s += begin_m / journey.speed_m_s;
+        journey.length_m = floor(left_m / gait->stride_m) * gait->stride_m;
+        begin_m = 0;
+    }
+    struct journey_now now = journey_at(&journey, time_s);
+    struct progress p = { .speed_m_s = now.speed_m_s, .gone_m = now.gone_m, .rest_s = now.rest_s,
+                          .phase = gait_time(gait, gait->meet_m - journey.length_m, 0) / gait->duration_s };
+    if (!repertoire->halts) p.aside_m = gait->meet_aside_m;
+    if (begin_m + p.gone_m < 0) p.gone_m = -begin_m, p.speed_m_s = 0;
+    double at_m = fmin(begin_m + p.gone_m, length_m);
+    p.s_m = back ? length_m - at_m : at_m;
+    return p;
+}
+
+static bool walks(const struct entity *entity, const struct repertoire *repertoire, double speed_m_s)
+{
+    return entity->model->rig && class_info(entity->class_)->is_person && speed_m_s != 0 && repertoire_gait(repertoire, speed_m_s)->walks;
 }
 
 static bool add_entity(struct moment *moment, const struct stage *stage, size_t i, double time_s, struct error *err)
 {
     const struct scene_entity *e = &stage->scene->entities[i];
     struct entity *entity = &moment->entities[moment->n];
+    const struct repertoire *repertoire = &stage->repertoires[stage->cast[i]];
     struct vec2 p = stage->stand_m[i];
-    double heading = e->heading_rad, way_m = 0, speed = 0;
+    double heading = e->heading_rad;
+    struct progress progress = { 0 };
+    struct posture posture = { 0 };
     *entity = scene_entity(stage, i);
     moment->model_index[moment->n] = stage->cast[i];
+    bool walking = stage->courses[i] && walks(entity, repertoire, e->speed_m_s);
+    /* Those who stand about do not all shift their weight at once. */
+    if (!stage->courses[i] && repertoire->has[PACE_STAND]) progress.phase = fmod(0.618034 * (double)(i + 1), 1);
     if (stage->courses[i]) {
         const struct path *path = &stage->courses[i]->path;
-        double s = e->start_m + e->speed_m_s * time_s;
-        double held = fmin(fmax(s, 0), path_length(path)); /* who comes to an end of the path stands there */
-        struct path_point at = path_at(path, held, e->offset_m);
+        progress = walking ? walk_on(e, repertoire, path_length(path), time_s) : drive_on(e, path_length(path), time_s);
+        struct path_point at = path_at(path, progress.s_m, e->offset_m);
         p = at.p_m;
         heading = at.heading_rad + (e->speed_m_s < 0 ? M_PI : 0);
-        way_m = held - fmin(e->start_m, path_length(path));
-        bool ahead = e->speed_m_s > 0 ? s < path_length(path) : s > 0;
-        if (ahead && held == s) speed = fabs(e->speed_m_s);
+    }
+    if (entity->model->rig) {
+        struct pace_now now = { .speed_m_s = progress.speed_m_s, .wish_m_s = stage->courses[i] ? e->speed_m_s : 0, .distance_m = progress.gone_m,
+                                .phase = progress.phase, .time_s = time_s };
+        posture = walking ? repertoire_rest(repertoire, &now, progress.rest_s) : repertoire_posture(repertoire, &now, pace_stands(&now));
+        p.x -= posture.share * progress.aside_m * cos(heading);
+        p.y += posture.share * progress.aside_m * sin(heading);
     }
     if (!stand(entity, stage, p, heading, err)) {
         stage_fail(stage->scene, e->at_source, err);
         return error_prefix(err, "entity \"%s\": ", e->name);
     }
-    moment->velocity_m_s[moment->n] = velocity(entity, speed, heading);
-    struct pace_now now = { .speed_m_s = speed, .wish_m_s = stage->courses[i] ? e->speed_m_s : 0,
-                            .distance_m = e->speed_m_s < 0 ? -way_m : way_m, .time_s = time_s };
-    /* Those who stand about do not all shift their weight at once. */
-    if (stage->repertoires[stage->cast[i]].has[PACE_STAND] && !stage->courses[i]) now.phase = fmod(0.618034 * (double)(i + 1), 1);
-    if (!pose_entity(moment, stage, &now, err)) return false;
+    moment->velocity_m_s[moment->n] = velocity(entity, progress.speed_m_s, heading);
+    if (!pose_entity(moment, &posture, err)) return false;
     moment->n++;
     return true;
 }
@@ -115,7 +164,9 @@ static bool add_mover(struct moment *moment, const struct stage *stage, const st
     moment->velocity_m_s[moment->n] = velocity(entity, mover->speed_m_s, mover->heading_rad);
     struct pace_now now = { .speed_m_s = mover->speed_m_s, .wish_m_s = mover->wish_m_s, .distance_m = mover->distance_m,
                             .phase = mover->phase, .time_s = time_s };
-    if (!pose_entity(moment, stage, &now, err)) return false;
+    struct posture posture = { 0 };
+    if (entity->model->rig) posture = repertoire_posture(&stage->repertoires[model], &now, pace_stands(&now));
+    if (!pose_entity(moment, &posture, err)) return false;
     moment->n++;
     return true;
 }

@@ -208,9 +208,9 @@ static bool find_course(struct stage *stage, size_t entity, struct error *err)
         if (!strcmp(way->name, e->path)) {
             stage->courses[entity] = way;
             double length = path_length(&way->path);
-            if (e->start_m > length)
-                return error_set(err, ERR_INPUT, "entity \"%s\": starts at %g m, and path \"%s\" is %.1f m long", e->name,
-                                 e->start_m, e->path, length) ||
+            if ((e->start_m < 0 && e->speed_m_s <= 0) || (e->start_m > length && e->speed_m_s >= 0))
+                return error_set(err, ERR_INPUT, "entity \"%s\": starts at %g m, path \"%s\" is %.1f m long, and its speed does not bring it there",
+                                 e->name, e->start_m, e->path, length) ||
                        stage_fail(stage->scene, e->at_source, err);
             return true;
         }

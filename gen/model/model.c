@@ -247,6 +247,14 @@ void model_destroy(struct model *model)
     free(model);
 }
 
+/* Half-way between two postures legs are longer than hips are high: bones turn in proportion, heights do not go so. */
+static void lift(struct model *model, double up_m)
+{
+    for (size_t i = 0; i < model->mesh_count; i++)
+        for (size_t v = 0; v < model->meshes[i].vertices; v++) model->meshes[i].position_m[v][2] += (float)up_m;
+    measure(model);
+}
+
 bool model_pose(struct model *posed, const struct model *model, const struct posture *posture, struct error *err)
 {
     if (!model->rig) return error_at(err, ERR_INPUT, model->path, 0, 0, "has no animation: it cannot move");
@@ -267,6 +275,7 @@ bool model_pose(struct model *posed, const struct model *model, const struct pos
         return at_path(model, err);
     }
     measure(&made);
+    if (posture->share > 0 && posture->share < 1 && made.min_m.z < 0) lift(&made, -made.min_m.z);
     *posed = made;
     return true;
 }

@@ -46,6 +46,30 @@ static void find_touches(struct touches *t, const struct model *from, const stru
         }
 }
 
+/* Where in the loop the feet are nearest to those of who stands, shifted so that what touches the ground is the same. */
+struct meeting { double cost_m; struct vec2 shift_m; int sample; };
+
+static double height_of(const struct model *model, size_t mesh, size_t v) { return (double)model->meshes[mesh].position_m[v][2] - model->min_m.z; }
+
+static void meet(struct meeting *best, int sample, const struct model *at, const struct model *standing, double sole_m)
+{
+    double touching = 0, stood = 0, apart = 0;
+    struct vec2 shift = { 0 };
+    for (int turn = 0; turn < 2; turn++) {
+        for (size_t i = 0; i < at->mesh_count; i++)
+            for (size_t v = 0; v < at->meshes[i].vertices; v++) {
+                const float *p = at->meshes[i].position_m[v], *q = standing->meshes[i].position_m[v];
+                double x = (double)(p[0] - q[0]), y = (double)(p[1] - q[1]), down = fmax(1 - height_of(turn ? standing : at, i, v) / sole_m, 0);
+                if (turn) stood += down, apart += down * hypot(x - shift.x, y - shift.y);
+                else touching += down, shift.x += down * x, shift.y += down * y;
+            }
+        if (turn == 0 && touching > 0) shift = (struct vec2){ shift.x / touching, shift.y / touching };
+    }
+    if (touching == 0 || stood == 0) return;
+    double cost_m = apart / stood + hypot(shift.x, shift.y);
+    if (cost_m < best->cost_m) *best = (struct meeting){ cost_m, shift, sample };
+}
+
 /* Fill in where nothing touches the ground: the body goes on, from the last speed to the next. */
 static bool bridge(double *step_m, const bool *grounded)
 {
@@ -61,8 +85,8 @@ static bool bridge(double *step_m, const bool *grounded)
 }
 
 /* Out: step_m (SAMPLES) what the body goes in each interval; low_m (SAMPLES + 1) its lowest point */
-static bool measure(double *step_m, double *low_m, bool *grounded, const struct model *model, size_t animation, double duration_s,
-                    struct error *err)
+static bool measure(double *step_m, double *low_m, bool *grounded, struct meeting *meeting, const struct model *model, size_t animation,
+                    double duration_s, const struct model *standing, struct error *err)
 {
     double sole_m = SOLE_SHARE * model->max_m.z;
     size_t vertices = 0;
@@ -74,6 +98,7 @@ static bool measure(double *step_m, double *low_m, bool *grounded, const struct 
         struct posture posture = { .animation = animation, .time_s = duration_s * i / SAMPLES };
         if (!model_pose(&to, model, &posture, err)) break;
         low_m[i] = to.min_m.z;
+        if (standing) meet(meeting, i, &to, standing, sole_m);
         if (i > 0) {
             find_touches(&touches, &from, &to, sole_m);
             grounded[i - 1] = touches.count > 0;
@@ -88,14 +113,15 @@ static bool measure(double *step_m, double *low_m, bool *grounded, const struct 
     return err->code == ERR_OK;
 }
 
-bool gait_create(struct gait *gait, const struct model *model, size_t animation, struct error *err)
+bool gait_create(struct gait *gait, const struct model *model, size_t animation, const struct model *standing, struct error *err)
 {
+    struct meeting meeting = { INFINITY, { 0, 0 }, 0 };
     double step_m[SAMPLES], low_m[SAMPLES + 1], ground_m = INFINITY, stride_m = 0, height_m = model->max_m.z;
     bool grounded[SAMPLES];
     if (!model->rig || animation >= model->rig->animation_count) return error_at(err, ERR_INPUT, model->path, 0, 0, "has no animation: it cannot walk");
     double duration_s = model->rig->animations[animation].duration_s;
     if (!(duration_s > 0)) return error_at(err, ERR_INPUT, model->path, 0, 0, "its animation is a single moment: it cannot walk");
-    if (!measure(step_m, low_m, grounded, model, animation, duration_s, err)) return false;
+    if (!measure(step_m, low_m, grounded, &meeting, model, animation, duration_s, standing, err)) return false;
     for (int i = 0; i <= SAMPLES; i++) ground_m = fmin(ground_m, low_m[i]);
     for (int i = 0; i < SAMPLES; i++)
         grounded[i] = grounded[i] && fmax(low_m[i], low_m[i + 1]) < ground_m + AIR_SHARE * height_m;
@@ -107,7 +133,7 @@ bool gait_create(struct gait *gait, const struct model *model, size_t animation,
     if (!advance_m) return error_set(err, ERR_MEMORY, "no memory for a gait");
     for (int i = 0; i < SAMPLES; i++) advance_m[i + 1] = advance_m[i] + fmax(step_m[i], 0); /* nobody steps back */
     *gait = (struct gait){ .duration_s = duration_s, .stride_m = advance_m[SAMPLES], .advance_m = advance_m, .samples = SAMPLES,
-                           .walks = stride_m > WALK_SHARE * height_m };
+                           .walks = stride_m > WALK_SHARE * height_m, .meet_m = advance_m[meeting.sample] + meeting.shift_m.x, .meet_aside_m = meeting.shift_m.y };
     return true;
 }
 

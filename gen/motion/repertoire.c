@@ -4,9 +4,14 @@
 #include <math.h>
 #include <string.h>
 
-/* Speeds between which walking passes over into standing. */
+/* Speeds between which walking passes over into standing; and what part of his own speed one who dawdles must lose. */
 #define STILL_M_S 0.05
 #define GOING_M_S 0.45
+#define DAWDLE_SHARE 0.8
+/* Who comes to rest begins to stand when the ground below him all but stays; without an animation for it he is done when
+ * the other foot may be down. */
+#define REST_BEFORE_S 0.08
+#define REST_AFTER_S 0.35
 /* One runs from where v^2 / (g leg) is 0.5; the leg, from the hip down, is 0.53 of a body's height.
  * Src: Alexander 1989, Optimization and gaits in the locomotion of vertebrates; Drillis, Contini 1966 */
 #define RUN_FROUDE 0.5
@@ -37,19 +42,25 @@ bool repertoire_create(struct repertoire *out, const struct model *model, struct
     struct repertoire made = { .run_m_s = sqrt(RUN_FROUDE * GRAVITY_M_S2 * LEG_SHARE * model->max_m.z) };
     bool known = false;
     for (size_t i = 0; i < model->rig->animation_count; i++) {
-        enum pace pace = pace_of(model->rig->animations[i].name);
+        const char *name = model->rig->animations[i].name;
+        enum pace pace = pace_of(name);
+        if (says(name, "halt") && !made.halts) made.halts = known = true, made.halt = i;
         if (pace == PACE_COUNT || made.has[pace]) continue;
         made.has[pace] = known = true;
         made.animation[pace] = i;
     }
     if (!known) made.has[PACE_WALK] = true;
-    for (int pace = 0; pace < PACE_COUNT; pace++)
-        if (made.has[pace] && !gait_create(&made.gait[pace], model, made.animation[pace], err)) {
-            repertoire_release(&made);
-            return false;
-        }
-    *out = made;
-    return true;
+    struct model standing = { 0 };
+    made.halts = made.halts && made.has[PACE_STAND];
+    bool stands = made.has[PACE_STAND], ok = true;
+    if (stands) ok = model_pose(&standing, model, &(struct posture){ .animation = made.halts ? made.halt : made.animation[PACE_STAND] }, err);
+    made.halt_s = made.halts ? model->rig->animations[made.halt].duration_s : 0;
+    for (int pace = 0; ok && pace < PACE_COUNT; pace++)
+        if (made.has[pace]) ok = gait_create(&made.gait[pace], model, made.animation[pace], stands ? &standing : NULL, err);
+    if (stands) model_posed_release(&standing);
+    if (ok) *out = made;
+    else repertoire_release(&made);
+    return ok;
 }
 
 void repertoire_release(struct repertoire *repertoire)
@@ -77,23 +88,47 @@ static enum pace choose(const struct repertoire *r, double speed_m_s)
     return first_of(r, walking);
 }
 
+const struct gait *repertoire_gait(const struct repertoire *r, double speed_m_s) { return &r->gait[choose(r, fabs(speed_m_s))]; }
+
 static double time_of(const struct repertoire *r, enum pace pace, const struct pace_now *now)
 {
     const struct gait *gait = &r->gait[pace];
     return gait_time(gait, now->distance_m, now->phase) + (gait->walks ? 0 : now->time_s);
 }
 
-struct posture repertoire_posture(const struct repertoire *r, const struct pace_now *now)
+static double smooth(double t)
+{
+    t = fmin(fmax(t, 0), 1);
+    return t * t * (3 - 2 * t);
+}
+
+double pace_stands(const struct pace_now *now)
 {
     double speed = fabs(now->speed_m_s), wish = fmax(fabs(now->wish_m_s), speed);
-    double still = fmin(fmax((GOING_M_S - speed) / (GOING_M_S - STILL_M_S), 0), 1);
-    if (wish < GOING_M_S && speed > 0) still = 0; /* who dawdles goes on */
+    double own = wish > 0 ? fmin(1, DAWDLE_SHARE * wish / GOING_M_S) : 1;
+    return smooth((GOING_M_S * own - speed) / ((GOING_M_S - STILL_M_S) * own));
+}
+
+struct posture repertoire_posture(const struct repertoire *r, const struct pace_now *now, double stands)
+{
+    double wish = fmax(fabs(now->wish_m_s), fabs(now->speed_m_s));
     enum pace going = wish > 0 ? choose(r, wish) : PACE_STAND, standing = r->has[PACE_STAND] ? PACE_STAND : going;
     if (!r->has[going]) going = standing = choose(r, 0);
     struct posture posture = { .animation = r->animation[going], .time_s = time_of(r, going, now) };
-    if (standing == going || still == 0) return posture;
+    if (standing == going || stands == 0) return posture;
     posture.to = r->animation[standing];
     posture.to_time_s = time_of(r, standing, now);
-    posture.share = still * still * (3 - 2 * still);
+    posture.share = stands;
+    return posture;
+}
+
+struct posture repertoire_rest(const struct repertoire *r, const struct pace_now *now, double rest_s)
+{
+    double since_s = rest_s + REST_BEFORE_S;
+    if (!r->halts) return repertoire_posture(r, now, smooth(since_s / (REST_BEFORE_S + REST_AFTER_S)));
+    if (since_s >= r->halt_s) return (struct posture){ .animation = r->animation[PACE_STAND], .time_s = since_s - r->halt_s };
+    if (since_s >= REST_BEFORE_S) return (struct posture){ .animation = r->halt, .time_s = since_s };
+    struct posture posture = repertoire_posture(r, now, 0);
+    posture.to = r->halt, posture.to_time_s = fmax(since_s, 0), posture.share = smooth(since_s / REST_BEFORE_S);
     return posture;
 }

@@ -98,7 +98,7 @@ struct scene_entity {
     size_t shot;
     double heading_rad;
     char *path;                /* name of a road or path that it follows, or NULL: it stands */
-    double start_m, offset_m;  /* along the path at time 0; to its left */
+    double start_m, offset_m;  /* along the path at time 0, also before and behind it; to its left */
     double speed_m_s;          /* along the path, negative: backward, facing that way */
     bool has_color;
     double color[3];           /* linear */

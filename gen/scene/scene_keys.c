@@ -191,7 +191,7 @@ static const struct schema_key keys[] = {
     { "entities[].at.shot", TYPE_INTEGER, .preset = "0", LIMITS(0, FRAME_MAX) },
     { "entities[].heading_deg", TYPE_NUMBER, "deg", LIMITS(-360, 360) },
     { "entities[].path", TYPE_TEXT, .presence = ONE_OF },
-    { "entities[].start_m", TYPE_NUMBER, "m", LIMITS(0, INFINITY) },
+    { "entities[].start_m", TYPE_NUMBER, "m", .presence = OPTIONAL },
     { "entities[].offset_m", TYPE_NUMBER, "m", LIMITS(-100, 100) },
     { "entities[].speed_m_s", TYPE_NUMBER, "m/s", LIMITS(-100, 100) },
     { "entities[].color", TYPE_COLOR | TYPE_NUMBERS, COUNT(3), LIMITS(0, 1) },

@@ -28,15 +28,28 @@ static size_t find_animation(const struct rig *rig, const char *name)
     return i;
 }
 
+/* Quaternions' parts, metres; 1 where the two are not of the same thing. */
+static double key_difference(const struct rig_channel *a, size_t key_a, const struct rig_channel *b, size_t key_b)
+{
+    size_t n = a->path == GLTF_ROTATION ? 4 : 3;
+    double most = a->path == b->path && a->node == b->node ? 0 : 1;
+    for (size_t k = 0; k < n; k++) most = fmax(most, fabs(a->value[key_a * n + k] - b->value[key_b * n + k]));
+    return most;
+}
+
 static void check_loops(const struct rig *rig, const char *name)
 {
-    bool closes = true;
-    for (size_t i = 0; i < rig->channel_count; i++) {
-        const struct rig_channel *c = &rig->channels[i];
-        size_t n = c->path == GLTF_ROTATION ? 4 : 3;
-        closes = closes && !memcmp(c->value, c->value + (c->keys - 1) * n, n * sizeof *c->value);
-    }
-    OK(closes, "%s: every animation ends as it begins", name);
+    size_t halt = find_animation(rig, "halt"), stand = find_animation(rig, "stand");
+    double apart = 0, to_stand = 0;
+    bool both = halt < rig->animation_count && stand < rig->animation_count && rig->animations[halt].count == rig->animations[stand].count;
+    for (size_t a = 0; a < rig->animation_count; a++)
+        for (size_t i = 0; i < rig->animations[a].count; i++) {
+            const struct rig_channel *c = &rig->channels[rig->animations[a].first + i];
+            if (a != halt) apart = fmax(apart, key_difference(c, 0, c, c->keys - 1));
+            else if (both) to_stand = fmax(to_stand, key_difference(c, c->keys - 1, &rig->channels[rig->animations[stand].first + i], 0));
+        }
+    OK(apart == 0, "%s: every animation but halt ends as it begins", name);
+    OK(both && to_stand < 0.01, "%s: halt ends as stand begins (to %.4f)", name, to_stand);
 }
 
 /* Go on for a loop and a half at the animation's own speed, and see how far what touches the ground goes over it. */
@@ -45,7 +58,7 @@ static void check_feet(const struct model *m, const char *name, const char *pace
     struct error err = ERROR_NONE;
     size_t animation = find_animation(m->rig, pace), total = 0, offset = 0;
     struct gait gait;
-    if (!OK(animation < m->rig->animation_count && gait_create(&gait, m, animation, &err), "%s has a gait: %s", name, pace)) return;
+    if (!OK(animation < m->rig->animation_count && gait_create(&gait, m, animation, NULL, &err), "%s has a gait: %s", name, pace)) return;
     for (size_t i = 0; i < m->mesh_count; i++) total += m->meshes[i].vertices;
     struct { bool down; double at_m[2]; } *contact = calloc(total, sizeof *contact);
     double worst = 0, lowest = 0, trodden = 0;

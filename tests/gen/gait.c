@@ -60,7 +60,7 @@ static void walkers_keep_their_feet_still(void)
         struct error err = ERROR_NONE;
         struct gait gait;
         struct model *m = load_walker(walkers[i]);
-        if (!OK(m && gait_create(&gait, m, 0, &err), "%s has a gait", walkers[i])) continue;
+        if (!OK(m && gait_create(&gait, m, 0, NULL, &err), "%s has a gait", walkers[i])) continue;
         /* docs/cast.md: v^2 / (g leg) is 0.205; the leg 0.52 of a stature of 1.79 and 1.64 m, with shoes. */
         double leg_m = i ? 0.874 : 0.954;
         OK(gait.walks, "it walks");
@@ -77,12 +77,12 @@ static void unsteady_roots_are_made_good(void)
     struct error err = ERROR_NONE;
     struct gait gait, steady;
     struct model *still = load_walker(walkers[0]);
-    if (!OK(still && gait_create(&steady, still, 0, &err), "a walker on the spot has a gait")) return;
+    if (!OK(still && gait_create(&steady, still, 0, NULL, &err), "a walker on the spot has a gait")) return;
     double stride_m = steady.stride_m, quarter_m = steady.advance_m[steady.samples / 4];
     gait_release(&steady);
     model_destroy(still);
     struct model *m = load(put_going("unsteady.glb", walkers[0], 1.2, 0.04), &(struct model_options){ 0 });
-    if (!OK(m && m->rig->animations[0].drift_m > 1.1 && gait_create(&gait, m, 0, &err), "a walker whose root goes ahead unsteadily has a gait")) return;
+    if (!OK(m && m->rig->animations[0].drift_m > 1.1 && gait_create(&gait, m, 0, NULL, &err), "a walker whose root goes ahead unsteadily has a gait")) return;
     NEAR(gait.stride_m, stride_m, 0.01, "of the same stride");
     NEAR(gait.advance_m[gait.samples / 4], quarter_m - 0.04, 0.015, "unsteady against the root's way");
     walk(m, &gait, 1.35, "unsteady.glb");
@@ -95,7 +95,7 @@ static void distance_tells_the_time(void)
     struct error err = ERROR_NONE;
     struct gait gait;
     struct model *m = load_walker(walkers[0]);
-    if (!OK(m && gait_create(&gait, m, 0, &err), "a walker has a gait")) return;
+    if (!OK(m && gait_create(&gait, m, 0, NULL, &err), "a walker has a gait")) return;
     double loop_s = gait.duration_s;
     bool ascending = gait.advance_m[0] == 0 && gait.advance_m[gait.samples] == gait.stride_m;
     for (int i = 0; i < gait.samples; i++) ascending = ascending && gait.advance_m[i + 1] >= gait.advance_m[i];
@@ -137,14 +137,14 @@ static void who_stands_stands(void)
     struct error err = ERROR_NONE;
     struct gait gait;
     struct model *m = load(put_gltf("nod.gltf", &b, file), &as_in_file);
-    if (OK(m && gait_create(&gait, m, 0, &err), "somebody who nods has a gait")) {
+    if (OK(m && gait_create(&gait, m, 0, NULL, &err), "somebody who nods has a gait")) {
         OK(!gait.walks && gait.duration_s == 2, "but does not walk");
         NEAR(gait_time(&gait, 5, 0.25), 0.5, 1e-12, "so that distance does not move it");
         gait_release(&gait);
     }
     model_destroy(m);
     m = load(put_text("still.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), &metres_z_up);
-    OK(m && !gait_create(&gait, m, 0, &err) && err.code == ERR_INPUT && !strcmp(path_name(err.file), "still.obj") && !strcmp(err.text, "has no animation: it cannot walk"), "refuses a model without animation");
+    OK(m && !gait_create(&gait, m, 0, NULL, &err) && err.code == ERR_INPUT && !strcmp(path_name(err.file), "still.obj") && !strcmp(err.text, "has no animation: it cannot walk"), "refuses a model without animation");
     model_destroy(m);
 }
 
@@ -153,7 +153,7 @@ static void wrong_fronts_are_refused(void)
     struct error err = ERROR_NONE;
     struct gait gait;
     struct model *m = load(in_folder("top_builddir", walkers[0]), &(struct model_options){ .axes_given = true, .up = AXIS_POS_Y, .front = AXIS_NEG_Z });
-    OK(m && !gait_create(&gait, m, 0, &err) && err.code == ERR_INPUT && !strncmp(err.text, "walks backwards, 1.4", 20) && strstr(err.text, " m in a loop: the opposite front axis would be right"), "refuses who walks backwards, and says why");
+    OK(m && !gait_create(&gait, m, 0, NULL, &err) && err.code == ERR_INPUT && !strncmp(err.text, "walks backwards, 1.4", 20) && strstr(err.text, " m in a loop: the opposite front axis would be right"), "refuses who walks backwards, and says why");
     if (err.code != ERR_OK) printf("# %s\n", err.text);
     model_destroy(m);
 }

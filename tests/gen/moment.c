@@ -27,11 +27,12 @@ static const char scene_text[] =
     "  - {name: reversing, model: box, path: diagonal, start_m: 80, offset_m: -2, speed_m_s: -3}\n"
     "  - {name: walker, model: man, path: walk, start_m: 5, speed_m_s: 1.4}\n"
     "  - {name: other way, model: man, path: walk, start_m: 40, speed_m_s: -1.4}\n"
+    "  - {name: setting out, model: man, path: walk, start_m: 91.4, speed_m_s: -1.4, offset_m: 1}\n"
     "  - {name: parked, model: box, at: {world_m: [-20, 5]}, heading_deg: 90}\n"
     "traffic:\n"
     "  vehicles: {count: 2, models: {box: {}}, colors: [\"#ff0000\", \"#00ff00\", \"#0000ff\"]}\n"
     "  people: {count: 3, models: {man: {}}}\n";
-enum { CAR, REVERSING, WALKER, OTHER_WAY, PARKED, GIVEN };
+enum { CAR, REVERSING, WALKER, OTHER_WAY, SETTING_OUT, PARKED, GIVEN };
 
 static const char *copied(const char *name, const char *variable, const char *from)
 {
@@ -144,7 +145,6 @@ static void check_gait(const struct stage *stage)
     NEAR(apart(now.entities[WALKER].model, later.entities[WALKER].model), 0, 1e-4, "a stride later the same pose");
     OK(apart(now.entities[WALKER].model, half.entities[WALKER].model) > 0.1, "half a stride later another");
     NEAR(apart(now.entities[WALKER].model, before.entities[WALKER].model), 0, 1e-4, "before the scene's time the walk runs on, not back");
-    NEAR(apart(now.entities[WALKER].model, now.entities[OTHER_WAY].model), 0, 1e-4, "so far the other way along a path: the same pose");
     size_t steps = 0, people = 0;
     for (size_t i = GIVEN; i < now.n; i++) {
         if (now.entities[i].class_ != CLASS_PERSON) continue;
@@ -156,6 +156,67 @@ static void check_gait(const struct stage *stage)
     moment_release(&later);
     moment_release(&half);
     moment_release(&before);
+}
+
+/* Over a time, in pictures 1/50 s apart: how far a point of him goes over the ground while it is on it, and from one picture to
+ * the next. Nothing of this is told by gaits: only where posed vertices are in the world. */
+struct tread { double slide_m, jump_m, sunk_m; };
+
+static struct vec3 point(const struct entity *e, size_t mesh, size_t v)
+{
+    const float *p = e->model->meshes[mesh].position_m[v];
+    return pose_apply(e->world_from_entity, vec3((double)p[0], (double)p[1], (double)p[2]));
+}
+
+static struct tread tread_of(const struct stage *stage, size_t who, double from_s, double to_s)
+{
+    struct tread tread = { 0 };
+    size_t total = 0, k;
+    struct moment m = at(stage, from_s);
+    for (size_t i = 0; i < m.entities[who].model->mesh_count; i++) total += m.entities[who].model->meshes[i].vertices;
+    struct { bool down; struct vec3 at_m, last_m; } *foot = calloc(total, sizeof *foot);
+    for (int f = 0; foot && from_s + 0.02 * f < to_s; f++) {
+        moment_release(&m);
+        m = at(stage, from_s + 0.02 * f);
+        const struct entity *e = &m.entities[who];
+        k = 0;
+        for (size_t i = 0; i < e->model->mesh_count; i++)
+            for (size_t v = 0; v < e->model->meshes[i].vertices; v++, k++) {
+                struct vec3 p = point(e, i, v);
+                bool down = p.z < 2.005;
+                if (down && !foot[k].down) foot[k].at_m = p;
+                if (down) tread.slide_m = fmax(tread.slide_m, hypot(p.x - foot[k].at_m.x, p.y - foot[k].at_m.y));
+                if (f > 0) tread.jump_m = fmax(tread.jump_m, vec3_norm(vec3_sub(p, foot[k].last_m)));
+                tread.sunk_m = fmax(tread.sunk_m, 2 - p.z);
+                foot[k].down = down;
+                foot[k].last_m = p;
+            }
+    }
+    free(foot);
+    moment_release(&m);
+    return tread;
+}
+
+/* The walker the other way has 40 m to the end of the path; who sets out is to come from 1.4 m beyond the other end. */
+static void check_halts(const struct stage *stage)
+{
+    const struct { size_t who; double moves_s, stands_s, from_s, to_s, end_y; const char *what; } known[] = {
+        { OTHER_WAY, 27, 30, 27.2, 29.8, 0, "who comes to the end of his path" }, { SETTING_OUT, 3.2, 0.6, 0.6, 3.2, 90, "who sets out" }
+    };
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        struct tread t = tread_of(stage, known[i].who, known[i].from_s, known[i].to_s);
+        OK(t.slide_m < 0.03 && t.sunk_m < 0.02, "%s: his feet slide %.0f mm, sink %.0f mm in at most", known[i].what, 1000 * t.slide_m, 1000 * t.sunk_m);
+        /* A foot that swings goes at four to five times his speed at most. */
+        OK(t.jump_m < 5 * 1.4 * 0.02, "%s: no point of him goes more than %.0f mm in 1/50 s", known[i].what, 1000 * t.jump_m);
+        struct moment moves = at(stage, known[i].moves_s), stands = at(stage, known[i].stands_s), later = at(stage, known[i].stands_s - 0.02);
+        NEAR(vec3_norm(moves.velocity_m_s[known[i].who]), 1.4, 1e-9, "%s: at his speed on the way", known[i].what);
+        struct vec3 p = stands.entities[known[i].who].world_from_entity.translation, q = later.entities[known[i].who].world_from_entity.translation;
+        OK(vec3_norm(stands.velocity_m_s[known[i].who]) == 0 && vec3_norm(vec3_sub(p, q)) == 0, "%s: stands", known[i].what);
+        NEAR(p.y, known[i].end_y, 0.1, "%s: at the end of the path", known[i].what);
+        moment_release(&moves);
+        moment_release(&stands);
+        moment_release(&later);
+    }
 }
 
 /* The animation's own figures are part of what a frame depends on. */
@@ -186,6 +247,7 @@ int main(void)
         check_velocities(stage);
         check_ids(stage);
         check_gait(stage);
+        check_halts(stage);
         check_hash(stage, scene, rules);
     }
     stage_destroy(stage);
