@@ -181,7 +181,7 @@ static bool list_person(struct listing *listing, const struct person *person, st
     return listing_add(listing, &listed, err);
 }
 
-static bool write_person(struct listing *listing, const struct person *person, const char *folder, struct error *err)
+bool write_person(struct listing *listing, const struct person *person, const char *folder, struct error *err)
 {
     struct wardrobe *wardrobe = need(calloc(1, sizeof *wardrobe));
     struct texture *texture = need(malloc(sizeof *texture));
@@ -212,11 +212,4 @@ static bool write_person(struct listing *listing, const struct person *person, c
     hull_release(&hull);
     free(wardrobe), free(texture), free(clips);
     return good && list_person(listing, person, size, count, err);
-}
-
-bool write_people(struct listing *listing, const char *folder, struct error *err)
-{
-    for (int i = 0; i < people_count; i++)
-        if (!write_person(listing, &people[i], folder, err)) return false;
-    return true;
 }

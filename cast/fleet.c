@@ -13,7 +13,7 @@ static const struct paint_share car_colors[] = {
     { "#dcdddc", 20 }, { "#d4d3cd", 14 }, { "#121314", 14 }, { "#1a1c20", 7 }, { "#5a5d61", 11 }, { "#787c80", 8 }, { "#a9adb0", 8 },
     { "#1f3a6b", 4 }, { "#2f5a86", 2 }, { "#16233f", 2 }, { "#7d1518", 3 }, { "#a11c1d", 2 }, { "#2e4437", 1 }, { "#6b5744", 2 }, { "#b3a68f", 2 } };
 
-static bool write_one(struct listing *listing, const struct vehicle_spec *v, const char *folder, struct error *err)
+bool write_listed_vehicle(struct listing *listing, const struct vehicle_spec *v, const char *folder, struct error *err)
 {
     static const char *const roll[] = { "roll", NULL };
     struct listed listed = { .name = v->name, .class_ = class_info(v->entity_class)->name, .kind = "vehicle", .weight = v->weight, .animations = roll,
@@ -29,11 +29,11 @@ static bool write_one(struct listing *listing, const struct vehicle_spec *v, con
     return write_vehicle(listed.triangles, v, folder, err) && listing_add(listing, &listed, err);
 }
 
-bool write_fleet(struct listing *listing, const char *folder, struct error *err)
+int fleet_count(void) { return car_count + truck_count + cycle_count; }
+
+const struct vehicle_spec *fleet_vehicle(int i)
 {
-    bool good = true;
-    for (int i = 0; good && i < car_count; i++) good = write_one(listing, cars[i], folder, err);
-    for (int i = 0; good && i < truck_count; i++) good = write_one(listing, trucks[i], folder, err);
-    for (int i = 0; good && i < cycle_count; i++) good = write_one(listing, cycles[i], folder, err);
-    return good;
+    if (i < car_count) return cars[i];
+    i -= car_count;
+    return i < truck_count ? trucks[i] : cycles[i - truck_count];
 }

@@ -52,14 +52,27 @@ bool listing_add(struct listing *listing, const struct listed *m, struct error *
     return json_array_append_new(listing->models, entry) == 0 || error_set(err, ERR_MEMORY, "no memory for the catalogue");
 }
 
-bool listing_write(struct listing *listing, const char *folder, struct error *err)
+bool listing_append(struct listing *listing, struct listing *from, struct error *err)
 {
-    json_t *root = json_pack("{s:o}", "models", listing->models ? listing->models : json_array());
+    if (!listing->models) listing->models = json_array();
+    bool ok = !from->models || json_array_extend(listing->models, from->models) == 0;
+    listing_release(from);
+    return ok || error_set(err, ERR_MEMORY, "no memory for the catalogue");
+}
+
+bool listing_write(const struct listing *listing, const char *folder, struct error *err)
+{
+    json_t *root = json_pack("{s:O*}", "models", listing->models);
     char *text = root ? json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(6)) : NULL, *path = string_format("%s/catalogue.json", folder);
     bool ok = text && path ? file_write(path, text, strlen(text), err) : error_set(err, ERR_MEMORY, "no memory for the catalogue");
     free(path);
     free(text);
     json_decref(root);
-    *listing = (struct listing){ 0 };
     return ok;
+}
+
+void listing_release(struct listing *listing)
+{
+    json_decref(listing->models);
+    *listing = (struct listing){ 0 };
 }

@@ -27,7 +27,10 @@ struct listed {
 struct listing { struct json_t *models; };
 /* Err: ERR_MEMORY */
 bool listing_add(struct listing *listing, const struct listed *model, struct error *err);
-/* Write FOLDER/catalogue.json, and empty the listing, also on failure. Err: ERR_IO */
-bool listing_write(struct listing *listing, const char *folder, struct error *err);
+/* Append what `from` lists, and empty it, also on failure. Err: ERR_MEMORY */
+bool listing_append(struct listing *listing, struct listing *from, struct error *err);
+/* Write FOLDER/catalogue.json. Err: ERR_IO, ERR_MEMORY */
+bool listing_write(const struct listing *listing, const char *folder, struct error *err);
+void listing_release(struct listing *listing);
 
 #endif

@@ -38,14 +38,15 @@ staffage_cast_SOURCES = \
   %D%/trucks.c \
   %D%/vehicle.h \
   %D%/vehicle_glb.c \
-  %D%/wheel.c %D%/wheel.h
-staffage_cast_LDADD = lib/libstaffage.a $(JANSSON_LIBS) $(ZLIB_LIBS) -lm
+  %D%/wheel.c %D%/wheel.h \
+  %D%/workshop.c %D%/workshop.h
+staffage_cast_LDADD = lib/libstaffage.a $(JANSSON_LIBS) $(ZLIB_LIBS) -lm -lpthread
 EXTRA_DIST += %D%/README.md
 
 # What it makes is listed in the catalogue, and made in one run; make install takes what the run left.
 noinst_DATA = models/catalogue.json
 models/catalogue.json: staffage-cast$(EXEEXT)
-	$(AM_V_GEN)rm -rf models && ./staffage-cast$(EXEEXT) models
+	$(AM_V_GEN)rm -rf models && $(MAKE_MODELS) models
 modelsdir = $(pkgdatadir)/models
 install-data-local: models/catalogue.json
 	$(MKDIR_P) '$(DESTDIR)$(modelsdir)' && $(INSTALL_DATA) models/* '$(DESTDIR)$(modelsdir)'

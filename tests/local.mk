@@ -205,6 +205,8 @@ tests_cast_vehicles_test_SOURCES = %D%/cast/surface.h %D%/cast/vehicles.c %D%/ta
 nodist_EXTRA_tests_cast_vehicles_test_SOURCES = dummy.cxx
 tests_cast_vehicles_test_LDADD = $(GEN_LIBS)
 
+dist_check_SCRIPTS += %D%/cast/cast.sh
+
 check_PROGRAMS += tests/gen/catalogue.test
 tests_gen_catalogue_test_SOURCES = %D%/gen/catalogue.c %D%/gen/model_files.h %D%/tap.h
 nodist_EXTRA_tests_gen_catalogue_test_SOURCES = dummy.cxx
