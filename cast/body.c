@@ -21,8 +21,8 @@ int joint_parent(int joint)
 
 /* --- tables: centimetres at the mean stature and mass of ANSUR II; t of the trunk in shares of stature --- */
 
-static const struct mean { double stature_m, mass_kg, shoulder_y, hip_y; } means[] = {
-    [MALE] = { 1.756, 85.5, 17.4, 8.8 }, [FEMALE] = { 1.629, 67.8, 15.2, 8.7 }
+static const struct mean { double stature_m, mass_kg, shoulder_y, hip_y, foot_share; } means[] = {
+    [MALE] = { 1.756, 85.5, 18.4, 8.8, 0.154 }, [FEMALE] = { 1.629, 67.8, 15.9, 8.7, 0.151 }
 };
 enum { TRUNK_ROWS = 12 };
 static const struct station trunks[][TRUNK_ROWS] = {
@@ -69,9 +69,9 @@ static void place_joints(struct body *b, double hip_share)
     for (int side = 0; side < 2; side++) {
         struct vec3 *at = &b->at[LIMB(side, 0)];
         at[SHOULDER] = vec3(-0.008 * h, 0.022 * h, RISE(0.80));
-        at[UPPER_ARM] = vec3(-0.012 * h, mean->shoulder_y * wide, RISE(0.784));
+        at[UPPER_ARM] = vec3(-0.012 * h, mean->shoulder_y * wide, RISE(0.790));
         at[ELBOW] = at[FOREARM] = vec3_add(at[UPPER_ARM], vec3_scale(way, 0.170 * arm * h));
-        at[HAND] = vec3_add(at[FOREARM], vec3_scale(way, 0.146 * arm * h));
+        at[HAND] = vec3_add(at[FOREARM], vec3_scale(way, 0.151 * arm * h));
         at[HIP] = at[THIGH] = vec3(0, mean->hip_y * wide, up + hip_z);
         at[KNEE] = at[SHIN] = vec3(0.006 * h, mean->hip_y * wide, up + hip_z * 0.285 / 0.52);
         at[FOOT] = vec3(-0.004 * h, mean->hip_y * wide, up + hip_z * 0.039 / 0.52);
@@ -126,9 +126,8 @@ static void make_flesh(struct body *b, double hip_share)
 
     struct vec3 shoulder = b->at[LIMB(0, UPPER_ARM)];
     double round = 4.3 * size * sqrt(g);
-    struct vec3 top = vec3_add(shoulder, vec3(-0.004, -0.02, -0.002));
-    struct vec3 other = vec3(top.x, -top.y, top.z);
-    b->girdle = *add_rod(&one, JOIN, 0.05, top, round, other, round);
+    struct vec3 top = vec3_add(shoulder, vec3(-0.004, -0.02, -0.004)), nape = vec3(-0.016 * h, 0.02, RISE(0.822));
+    b->girdle = *add_rod(&one, JOIN, 0.05, nape, 1.15 * round, top, 0.94 * round);
     double full = grown * (0.6 + 0.5 * fmin(g, 1.4));
     b->bust = *add_ball(&one, JOIN, 0.045, vec3(7.6 * size * g, 7.0 * size * sqrt(g), RISE(0.722)),
                         vec3_scale(vec3(6.2, 6.2, 6.4), size * (female ? full : 0.1)));
@@ -155,7 +154,7 @@ struct body make_body(const struct measures *m, double sole_m)
     double grown_head = (m->sex == MALE ? 0.229 : 0.215) * sqrt(h / mean->stature_m);
     b.head_m = age >= 18 ? grown_head : by_age(age, 0.195, 0.204, 0.211, grown_head);
     b.chin_z = sole_m + h - b.head_m;
-    b.foot_m = 0.152 * h * by_age(age, 1.02, 1.04, 1.03, 1);
+    b.foot_m = mean->foot_share * h * by_age(age, 1.02, 1.04, 1.03, 1);
     double index = m->mass_kg / (h * h * h), usual = mean->mass_kg / pow(mean->stature_m, 3);
     b.girth = sqrt(index / usual);
     double hip_share = by_age(age, 0.488, 0.508, 0.516, 0.52);

@@ -53,14 +53,14 @@ static void join_pair(struct shape *shape, struct solid s, double soft_m)
 static void make_hand(struct shape *s, const struct body *b)
 {
     const struct vec3 *at = &b->at[LIMB(0, 0)];
-    double length = 0.106 * b->measures.stature_m;
+    double length = 0.109 * b->measures.stature_m;
     struct vec3 down = vec3_unit(vec3_sub(at[HAND], at[FOREARM])), front = vec3(1, 0, 0), in = vec3_cross(front, down); /* to the thigh */
 #define AT(d, f, n) vec3_add(at[HAND], vec3_scale(vec3_add(vec3_add(vec3_scale(down, d), vec3_scale(front, f)), vec3_scale(in, n)), length))
     struct solid *palm = add_box(s, JOIN, 0.012, AT(0.27, 0.01, 0), vec3(0.20 * length, 0.075 * length, 0.26 * length), 0.07 * length);
     palm->axes = mat3_from_columns(front, vec3_scale(in, -1), vec3_scale(down, -1));
     static const double finger[4][3] = { { 0.16, 0.42, 0.24 }, { 0.055, 0.48, 0.26 }, { -0.05, 0.45, 0.24 }, { -0.145, 0.35, 0.20 } }; /* place, lengths */
     for (int i = 0; i < 4; i++) {
-        double f = finger[i][0], spread = 1.15 * f, near = 0.48, curl = 0.05 + 0.02 * i;
+        double f = finger[i][0], spread = 1.15 * f, near = 0.48, curl = 0.10 + 0.02 * i;
         add_chain(s, JOIN, 0.004, (struct vec3[]){ AT(near - 0.06, f + 0.01, 0), AT(near + finger[i][2], spread + 0.01, curl), AT(near + 0.93 * finger[i][1], spread + 0.005, 0.14 + 2.4 * curl) },
                   (double[]){ 0.052 * length, 0.05 * length, 0.038 * length }, 3);
     }
@@ -137,6 +137,9 @@ static void wear_trousers(struct wardrobe *wardrobe, const struct person *person
         join(s, solid_mirrored(&shin), 0.03);
         add_half(s, CUT, 0.004, vec3(0, 0, b->at[LIMB(0, FOOT)].z + (kind == LEGGINGS ? 0.02 : -0.02) * h), vec3(0, 0, 1));
     }
+    /* Each leg has its own cloth: as wide a gap as the net of cells can tell. */
+    double gap_top = b->crotch_z - 0.03 * h, gap_low = b->at[LIMB(0, FOOT)].z - 0.03 * h;
+    add_box(s, CUT, 0.010, vec3(0, 0, (gap_top + gap_low) / 2), vec3(0.25, 0.0085, (gap_top - gap_low) / 2), 0.008);
     double top = b->waist_z + 0.01 * h;
     if (person->top == COAT) top = b->sole_m + 0.40 * h; /* the rest is hidden */
     add_half(s, CUT, 0, vec3(0, 0, top), vec3(0, 0, -1));
@@ -213,7 +216,7 @@ static void wear_top(struct wardrobe *wardrobe, const struct person *person, con
     }
     solid_settle(&trunk);
     join(s, trunk, 0);
-    join(s, grown(&b->girdle, 0.8 * e, 0.8 * e), 0.06);
+    join_pair(s, grown(&b->girdle, 0.8 * e, 0.8 * e), 0.06);
     join_pair(s, grown(&b->bust, 0.8 * e, 0), outer ? 0.07 : 0.05);
     join_pair(s, grown(&b->seat, e, 0), 0.06);
     switch (kind) {
@@ -283,7 +286,7 @@ static void wear_top(struct wardrobe *wardrobe, const struct person *person, con
         if (!bare) add_crease(s, at[ELBOW], 0.08 * h, deep);
         add_crease(s, vec3_add(at[UPPER_ARM], vec3(0, side ? 0.03 : -0.03, -0.07 * h)), 0.08 * h, 0.7 * deep);
     }
-    add_crease(s, vec3(0.02, 0, b->waist_z - 0.02 * h), 0.11 * h, 0.7 * deep);
+    add_crease(s, vec3(0.02, 0, b->waist_z - 0.02 * h), 0.11 * h, 0.4 * deep);
     if (kind == DRESS) s->folds_m = 0.008;
 }
 
@@ -383,5 +386,10 @@ void carry(struct wardrobe *wardrobe, const struct person *person, const struct 
         break;
     }
     default: break;
+    }
+    if (person->hands == AT_PHONE) {
+        g = add_garment(wardrobe, CARRIED_PIECE, 0.005);
+        g->joint = HELD;
+        solid_tip(add_box(&g->shape, JOIN, 0, vec3_add(b->at[HELD], vec3(0.03, 0.02, 0.05)), vec3(0.006, 0.037, 0.074), 0.004), -0.6);
     }
 }

@@ -70,7 +70,7 @@ static void make_hair(struct shape *s, const struct frame *f, enum hair hair, do
         s->folds_m = 0.002 * f->unit;
         break;
     case CURLY_HAIR:
-        make_cap_of_hair(s, f, 0.10, 0.18, false);
+        make_cap_of_hair(s, f, 0.07, 0.17, false);
         s->folds_m = 0.07 * f->unit;
         break;
     case BOB_HAIR:

@@ -85,8 +85,10 @@ static void pose_held(struct body_pose *pose, const struct person *person, const
 /* Hands that do something else than swing. sway: -1 to 1, with the steps. */
 static void pose_hands(struct body_pose *pose, const struct person *person, const struct body *b, double sway)
 {
-    for (int side = 0; side < 2 && person->hands == IN_POCKETS; side++)
-        pose_arm(pose, b, side, arm_out(b) + radians(9), radians(-10 + 2 * sway * (side ? -1 : 1)), radians(42 + 4 * habit(person, 23 + side)), radians(20));
+    for (int side = 0; side < 2 && person->hands == IN_POCKETS; side++) {
+        pose_arm(pose, b, side, arm_out(b) + radians(8), radians(-17 + 2 * sway * (side ? -1 : 1)), radians(45 + 4 * habit(person, 23 + side)), radians(32));
+        pose->turn[LIMB(side, HAND)] = then(pose->turn[LIMB(side, FOREARM)], then(lean_right(radians(side ? 48 : -48)), lift(radians(-6))));
+    }
     if (person->hands == AT_PHONE) {
         pose_arm(pose, b, 1, radians(7), radians(16 + sway), radians(98), radians(30));
         pose->turn[HEAD] = then(pose->turn[HEAD], lift(radians(-17)));

@@ -107,15 +107,15 @@ static struct color paint_head(const struct person *person, double u, double z, 
 static double fold_shade(double y, double z, double seed)
 {
     double slant = 0.5 * noise(vec3(y * 5, z * 5, 1), seed);
-    double down = noise(vec3(y * 34 + 3 * slant, z * 7, 2), seed), across = noise(vec3(y * 9 + 4 * z, z * 30 + 9 * y + 4 * slant, 3), seed + 2);
+    double down = noise(vec3(y * 17 + 3 * slant, z * 4, 2), seed), across = noise(vec3(y * 5 + 3 * z, z * 13 + 7 * y + 4 * slant, 3), seed + 2);
     double crease = ramp(0.10, 0.0, fabs(across - 0.5)) * noise(vec3(y * 8, z * 8, 6), seed);
-    return 1 + 0.18 * (down - 0.5) + 0.07 * (across - 0.5) - 0.14 * crease;
+    return 1 + 0.22 * (down - 0.5) + 0.10 * (across - 0.5) - 0.10 * crease;
 }
 
 static struct color paint_cloth(struct color c, enum pattern pattern, double y, double z, double seed)
 {
     double fine = noise(vec3(y * 160, z * 160, 0), seed), large = noise(vec3(y * 9, z * 6, 3), seed);
-    double light = (1 + 0.08 * (fine - 0.5) + 0.16 * (large - 0.5)) * fold_shade(y, z, seed);
+    double light = (1 + 0.06 * (fine - 0.5) + 0.10 * (large - 0.5)) * fold_shade(y, z, seed);
     switch (pattern) {
     case STRIPES: c = mixed(c, (struct color){ { 0.90, 0.89, 0.86 } }, fmod(fabs(z), 0.052) < 0.024 ? 0.85 : 0); break;
     case CHECKS: {
@@ -140,7 +140,7 @@ static struct color paint_bottom(const struct person *person, double y, double z
 {
     struct color c = color_of(person->bottom_color);
     double knee = ramp(0.08, 0.02, fabs(z - 0.29)) * ramp(0.10, 0.04, fabs(fabs(y) - 0.09)), thigh = ramp(0.16, 0.05, fabs(z - 0.40)) * ramp(0.09, 0.02, fabs(fabs(y) - 0.10));
-    if (person->bottom_pattern == WORN) c = mixed(c, (struct color){ { 0.72, 0.76, 0.82 } }, 0.28 * thigh + 0.14 * knee);
+    if (person->bottom_pattern == WORN) c = mixed(c, (struct color){ { 0.74, 0.79, 0.86 } }, 0.40 * thigh + 0.25 * knee);
     c = paint_cloth(c, person->bottom_pattern, y, z * person->measures.stature_m, 21);
     c = shaded(c, (1 - 0.25 * ramp(0.035, 0.0, fabs(y)) * ramp(0.36, 0.44, z)) * (1 - 0.12 * ramp(0.03, 0.0, fabs(y))));
     c = shaded(c, 1 - 0.18 * ramp(0.09, 0.03, z));                                /* dusty, worn hems */
@@ -165,7 +165,7 @@ static struct color paint_shoe(const struct person *person, double z_m, double g
 {
     struct color c = shaded(color_of(person->shoes_color), 0.92 + 0.16 * grain);
     bool sneakers = person->shoes == SNEAKERS;
-    struct color sole = sneakers ? (struct color){ { 0.78, 0.77, 0.74 } } : (struct color){ { 0.10, 0.08, 0.07 } };
+    struct color sole = sneakers ? (struct color){ { 0.78, 0.77, 0.74 } } : (struct color){ { 0.20, 0.18, 0.17 } };
     return mixed(c, shaded(sole, 0.85 + 0.3 * grain), ramp(sneakers ? 0.030 : 0.014, sneakers ? 0.024 : 0.009, z_m));
 }
 
