@@ -96,8 +96,6 @@ static void bare_legs(struct wardrobe *wardrobe, const struct body *b, double fr
     struct garment *g = add_garment(wardrobe, piece, 0.011);
     join_pair(&g->shape, grown(&b->thigh, wide_m, wide_m), 0.004);
     join_pair(&g->shape, grown(&b->shin, wide_m, wide_m), 0.02);
-    double heel = b->at[LIMB(0, FOOT)].z - 0.045 * b->measures.stature_m;
-    (void)heel;
     add_half(&g->shape, CUT, 0, vec3(0, 0, from_z), vec3(0, 0, -1));
 }
 
@@ -295,7 +293,8 @@ void wear_clothes(struct wardrobe *wardrobe, const struct person *person, const 
     bool skirt = person->bottom == SKIRT || person->bottom == LONG_SKIRT, dress = person->top == DRESS;
     if (dress) bare_legs(wardrobe, b, b->at[LIMB(0, KNEE)].z + 0.12, person->bottom == LEGGINGS ? 0.002 : 0, person->bottom == LEGGINGS ? BOTTOM_PIECE : SKIN_PIECE);
     else if (skirt) {
-        bare_legs(wardrobe, b, b->at[LIMB(0, KNEE)].z + 0.12, 0, SKIN_PIECE);
+        bool ankles = person->bottom == LONG_SKIRT;
+        bare_legs(wardrobe, b, ankles ? b->at[LIMB(0, FOOT)].z + 0.14 : b->at[LIMB(0, KNEE)].z + 0.12, 0, SKIN_PIECE);
         wear_skirt(wardrobe, person, b);
     } else {
         if (person->bottom == SHORTS) bare_legs(wardrobe, b, b->at[LIMB(0, KNEE)].z + 0.14, 0, SKIN_PIECE);

@@ -64,11 +64,11 @@ static void pose_arm(struct body_pose *pose, const struct body *b, int side, dou
     (void)b;
 }
 
-/* How far out an arm must hang for the wrist to pass the hips. */
-static double arm_out(const struct body *b)
+/* How far out an arm must hang for the wrist to pass the hips and what is worn about them. */
+static double arm_out(const struct person *person, const struct body *b)
 {
     const struct vec3 *at = &b->at[LIMB(0, 0)];
-    double arm = vec3_norm(vec3_sub(at[HAND], at[UPPER_ARM])), hips = b->trunk.station[2].side + 0.055;
+    double arm = vec3_norm(vec3_sub(at[HAND], at[UPPER_ARM])), hips = b->trunk.station[2].side + 0.055 + (person->top == COAT || person->top == OPEN_COAT ? 0.04 : 0);
     return fmin(fmax(asin(fmin((hips - at[UPPER_ARM].y) / arm, 0.4)), radians(4)), radians(17));
 }
 
@@ -86,7 +86,7 @@ static void pose_held(struct body_pose *pose, const struct person *person, const
 static void pose_hands(struct body_pose *pose, const struct person *person, const struct body *b, double sway)
 {
     for (int side = 0; side < 2 && person->hands == IN_POCKETS; side++) {
-        pose_arm(pose, b, side, arm_out(b) + radians(8), radians(-17 + 2 * sway * (side ? -1 : 1)), radians(45 + 4 * habit(person, 23 + side)), radians(32));
+        pose_arm(pose, b, side, arm_out(person, b) + radians(8), radians(-17 + 2 * sway * (side ? -1 : 1)), radians(45 + 4 * habit(person, 23 + side)), radians(32));
         pose->turn[LIMB(side, HAND)] = then(pose->turn[LIMB(side, FOREARM)], then(lean_right(radians(side ? 48 : -48)), lift(radians(-6))));
     }
     if (person->hands == AT_PHONE) {
@@ -114,7 +114,7 @@ static void pose_trunk(struct body_pose *pose, const struct person *person, cons
         double own = 1 + 0.22 * habit(person, 4 + side), bend = g->arm_bend * (1 + 0.15 * habit(person, 6 + side));
         if (side == 1 && person->carried == HANDBAG) own *= 0.35, bend *= 0.6, held = forward;
         double ahead = radians(own * g->arm * (forward + 0.12) - (run > 0 ? 12 : 0));
-        pose_arm(pose, b, side, arm_out(b) + radians(6 * run), ahead, radians(bend + own * g->arm_bend_swing * forward), radians(run > 0 ? 28 : 9));
+        pose_arm(pose, b, side, arm_out(person, b) + radians(6 * run), ahead, radians(bend + own * g->arm_bend_swing * forward), radians(run > 0 ? 28 : 9));
     }
     if (run == 0) pose_hands(pose, person, b, sin(a));
     pose_held(pose, person, b, radians(6) * held);
@@ -229,7 +229,7 @@ static void pose_stander(struct body_pose *pose, struct vec3 *ankle, double *out
     pose->turn[HEAD] = then(turn_left(radians(7 * habit(person, 14) + 13 * sin(a + 1) + 4 * sin(2 * a))), then(lean_right(radians(2.5 * on)), lift(radians(-5 + 4 * habit(person, 15) + 2 * sin(a)))));
     for (int side = 0; side < 2; side++) {
         double way = side ? -1 : 1, easy = 0.5 - 0.5 * way * on;
-        pose_arm(pose, b, side, arm_out(b) + radians(2 * easy), radians(3 + 5 * habit(person, 16 + side) + 2.5 * easy), radians(11 + 6 * habit(person, 18 + side) + 3 * sin(a + side)), radians(12));
+        pose_arm(pose, b, side, arm_out(person, b) + radians(2 * easy), radians(3 + 5 * habit(person, 16 + side) + 2.5 * easy), radians(11 + 6 * habit(person, 18 + side) + 3 * sin(a + side)), radians(12));
     }
     pose_hands(pose, person, b, 0.5 * sin(a));
     pose_held(pose, person, b, radians(2 * sin(a)));
@@ -291,7 +291,7 @@ static void make_halt(struct clip *clip, const struct person *person, const stru
             struct step step = side == other ? begin : stays;
             ankle[side] = vec3_add(vec3_scale(ankle_of(b, walker.gait, &step, side), 1 - u), vec3_scale(set_down[side], u));
         }
-        ankle[other].z = (1 - u) * clear + 4 * t * (1 - t) * HALT_LIFT * leg - foot_low(&sole[other], pitch, bend);
+        ankle[other].z = (1 - u) * (clear - foot_low(&sole[other], pitch, bend)) + u * set_down[other].z + 4 * t * (1 - t) * HALT_LIFT * leg;
         for (int side = 0; side < 2; side++) pose.hips.z = fmin(pose.hips.z, reach(&pose, b, ankle[side], side, 0.9995));
         for (int side = 0; side < 2; side++)
             pose_leg(&pose, b, ankle[side], side, side == other ? pitch : 0, side == other ? bend : 0, (1 - u) * walker.toes_out + u * out_rad[side]);

@@ -49,7 +49,7 @@ static void check_loops(const struct rig *rig, const char *name)
             else if (both) to_stand = fmax(to_stand, key_difference(c, c->keys - 1, &rig->channels[rig->animations[stand].first + i], 0));
         }
     OK(apart == 0, "%s: every animation but halt ends as it begins", name);
-    OK(both && to_stand < 0.01, "%s: halt ends as stand begins (to %.4f)", name, to_stand);
+    OK(both && to_stand < 0.002, "%s: halt ends as stand begins (to %.4f)", name, to_stand);
 }
 
 /* Go on for a loop and a half at the animation's own speed, and see how far what touches the ground goes over it. */
