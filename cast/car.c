@@ -130,6 +130,9 @@ static void add_pair(struct shell *body, const struct shell *left)
     shell_append(body, left, vec3(0, 0, 0), true);
 }
 
+/* How far seats are from the middle. */
+static double seat_y(const struct car_spec *spec) { return 0.42 * spec->coach.half_width + 0.01; }
+
 static void add_seats(struct shell *left, struct shell *body, const struct car_spec *spec, enum level level)
 {
     int n = level == NEAR ? 10 : 8;
@@ -138,7 +141,7 @@ static void add_seats(struct shell *left, struct shell *body, const struct car_s
         double x = spec->seat_x[i];
         if (i && x == 0) continue;
         size_t first = left->points;
-        double y = 0.42 * half + 0.01;
+        double y = seat_y(spec);
         part_blob(left, vec3(x + 0.16, y, z), vec3(0.28, 0.255, 0.09), 0.45, n, SEAT);
         first = left->points;
         part_blob(left, vec3(x - 0.10, y, z + 0.34), vec3(0.085, 0.245, 0.36), 0.45, n, SEAT);
@@ -148,7 +151,7 @@ static void add_seats(struct shell *left, struct shell *body, const struct car_s
     if (level != NEAR) return;
     double dash = spec->screen[0].low.x;
     part_blob(body, vec3(dash - 0.34, 0, spec->coach.belt[0] - 0.13), vec3(0.22, half - 0.20, 0.11), 0.4, 20, LINING);
-    struct vec3 ring[21], hub = vec3(spec->seat_x[0] + 0.40, 0.42 * half, z + 0.40);
+    struct vec3 ring[21], hub = vec3(spec->seat_x[0] + 0.40, seat_y(spec), z + 0.40);
     size_t first = body->points;
     for (int k = 0; k <= 20; k++) ring[k] = vec3(hub.x, hub.y + 0.18 * sin(2 * PI * k / 20), hub.z + 0.18 * cos(2 * PI * k / 20));
     part_tube(body, ring, 21, 0.016, 0.016, 6, LINING);
@@ -320,10 +323,25 @@ void car_body(struct shell *body, const struct car_spec *spec, enum level level)
     add_fittings(body, &coach, spec, level);
 }
 
+void vehicle_add_driver(struct vehicle *vehicle, const struct car_spec *spec, enum level level)
+{
+    if (level == FAR) return; /* windows are opaque */
+    struct seat seat = { .lean_deg = -17, .nod_deg = 3, .toes_deg = { 35, 35 }, .elbows_out = 0.5, .knees_out = 0.12 };
+    double x = spec->seat_x[0], y = seat_y(spec), z = spec->seat_z;
+    seat.hips = vec3(x + 0.03, y, z + 0.14);
+    for (int side = 0; side < 2; side++) {
+        double out = side ? -1 : 1;
+        seat.wrist[side] = vec3(x + 0.33, y + out * 0.19, z + 0.43);
+        seat.ankle[side] = vec3(x + 0.74, y + out * 0.12, z - 0.10);
+    }
+    crew_seat(&vehicle->driver, vehicle->crew, DRIVER, &seat, level != NEAR);
+}
+
 void make_car(struct vehicle *vehicle, const struct vehicle_spec *spec, enum level level)
 {
     const struct car_spec *car = spec->form;
     car_body(&vehicle->body, car, level);
+    if (car->seat_z > 0) vehicle_add_driver(vehicle, car, level);
     double outer = car->coach.half_width - car->wheel_out;
     vehicle_add_axle(vehicle, &car->wheel, "wheel_front_left", "wheel_front_right", car->axle_x[0], outer, level);
     const struct wheel_spec *rear = car->rear_wheel.diameter_m > 0 ? &car->rear_wheel : &car->wheel;

@@ -45,5 +45,7 @@ struct car_spec {
 void car_coach(struct coach *coach, const struct car_spec *spec);
 void make_car(struct vehicle *vehicle, const struct vehicle_spec *spec, enum level level);
 void car_body(struct shell *body, const struct car_spec *spec, enum level level);
+/* Behind the wheel of the first seat. */
+void vehicle_add_driver(struct vehicle *vehicle, const struct car_spec *spec, enum level level);
 
 #endif

@@ -1,7 +1,7 @@
 /* Cycles, with their riders. x runs forward from the middle, z up, in metres. */
 #include "cast/coat.h"
+#include "cast/occupant.h"
 #include "cast/part.h"
-#include "cast/rider.h"
 #include "cast/wheel.h"
 
 #define COUNT(a) (int)(sizeof(a) / sizeof *(a))
@@ -49,7 +49,7 @@ static void make_motorcycle(struct vehicle *v, const struct vehicle_spec *spec, 
     (void)spec;
     struct shell *s = &v->body;
     const double front = 0.70, rear = -0.71, rf = 0.30, rr = 0.312;
-    int n = sides(level, 12), m = level == NEAR ? 24 : level == MIDDLE ? 10 : 6;
+    int n = sides(level, 12), m = level == NEAR ? 24 : level == MIDDLE ? 12 : 8;
     static const struct wheel_spec front_wheel = { 0.600, 0.120, 0.432, CAST_RIM, 5, RIM_DARK }, rear_wheel = { 0.624, 0.160, 0.432, CAST_RIM, 5, RIM_DARK };
     struct vec3 top = vec3(0.43, 0.095, 0.98);
     rods(s, vec3(front, 0.095, rf), vec3(0.545, 0.095, 0.70), 0.028, n, TRIM_COAT);
@@ -60,16 +60,16 @@ static void make_motorcycle(struct vehicle *v, const struct vehicle_spec *spec, 
         const struct vec3 bar[] = { { 0.44, 0, 1.0 }, { 0.45, k * 0.10, 1.01 }, { 0.43, k * 0.22, 1.06 }, { 0.37, k * 0.38, 1.045 } };
         part_tube(s, bar, COUNT(bar), 0.014, 0.014, sides(level, 8), TRIM_COAT);
         part_rod(s, vec3(0.405, k * 0.27, 1.055), vec3(0.365, k * 0.39, 1.043), 0.019, sides(level, 10), TYRE);
+        part_rod(s, vec3(0.41, k * 0.25, 1.06), vec3(0.40, k * 0.32, 1.20), 0.007, sides(level, 5), TRIM_COAT);
+        part_blob(s, vec3(0.40, k * 0.33, 1.22), vec3(0.018, 0.065, 0.042), 0.7, m, TRIM_COAT);
         if (level != FAR) {
-            part_rod(s, vec3(0.41, k * 0.25, 1.06), vec3(0.40, k * 0.32, 1.20), 0.007, 5, TRIM_COAT);
-            part_blob(s, vec3(0.40, k * 0.33, 1.22), vec3(0.018, 0.065, 0.042), 0.7, m / 2, TRIM_COAT);
             part_blob(s, vec3(0.60, k * 0.17, 0.86), vec3(0.035, 0.028, 0.022), 0.8, m / 2, TURN_LAMP);
             part_blob(s, vec3(-0.86, k * 0.15, 0.86), vec3(0.035, 0.028, 0.022), 0.8, m / 2, TURN_LAMP);
         }
     }
     part_blob(s, vec3(0.60, 0, 0.90), vec3(0.085, 0.115, 0.11), 0.75, m, PAINT_COAT);         /* headlamp in its shell */
     part_blob(s, vec3(0.655, 0, 0.895), vec3(0.035, 0.085, 0.08), 0.8, m, LAMP);
-    part_blob(s, vec3(0.50, 0, 1.04), vec3(0.05, 0.08, 0.035), 0.6, m / 2 * 2, TRIM_COAT);
+    part_blob(s, vec3(0.50, 0, 1.04), vec3(0.05, 0.08, 0.035), 0.6, m, TRIM_COAT);
     part_blob(s, vec3(0.20, 0, 0.86), vec3(0.275, 0.155, 0.14), 0.72, m, PAINT_COAT);           /* tank */
     part_blob(s, vec3(0.32, 0, 0.72), vec3(0.16, 0.18, 0.12), 0.75, m, PAINT_COAT);             /* shrouds */
     part_blob(s, vec3(-0.24, 0, 0.80), vec3(0.26, 0.135, 0.05), 0.6, m, TRIM_COAT);              /* seats */
@@ -104,11 +104,9 @@ static void make_motorcycle(struct vehicle *v, const struct vehicle_spec *spec, 
     part_turn(s, first, vec3(-1.0, 0, 0.58), 18, 0, 0);
     vehicle_add_wheel(v, &front_wheel, "wheel_front", front, level);
     vehicle_add_wheel(v, &rear_wheel, "wheel_rear", rear, level);
-    const struct rider rider = { .hip = { -0.26, 0, 0.945 }, .chest = { -0.06, 0, 1.30 }, .neck = { -0.02, 0, 1.43 }, .head = { 0.05, 0, 1.54 }, .hip_half = 0.09,
-                                 .shoulder = { -0.05, 0.20, 1.35 }, .elbow = { 0.12, 0.36, 1.15 }, .hand = { 0.38, 0.33, 1.06 }, .full_helmet = true,
-                                 .knee = { { 0.16, 0.235, 0.80 }, { 0.16, -0.235, 0.80 } }, .ankle = { { -0.14, 0.225, 0.46 }, { -0.14, -0.225, 0.46 } },
-                                 .toe = { { 0.02, 0.245, 0.385 }, { 0.02, -0.245, 0.385 } } };
-    add_rider(s, &rider, level);
+    const struct seat seat = { .hips = { -0.24, 0, 0.93 }, .lean_deg = 20, .nod_deg = 6, .elbows_out = 1.0, .knees_out = 0.35, .toes_deg = { -12, -12 },
+                               .wrist = { { 0.32, 0.33, 1.08 }, { 0.32, -0.33, 1.08 } }, .ankle = { { -0.20, 0.21, 0.45 }, { -0.20, -0.21, 0.45 } } };
+    crew_seat(s, v->crew, MOTORCYCLIST, &seat, level != NEAR);
 }
 
 static void make_bicycle(struct vehicle *v, const struct vehicle_spec *spec, enum level level)
@@ -157,16 +155,14 @@ static void make_bicycle(struct vehicle *v, const struct vehicle_spec *spec, enu
     }
     vehicle_add_wheel(v, &wheel, "wheel_front", front, level);
     vehicle_add_wheel(v, &wheel, "wheel_rear", rear, level);
-    const struct rider rider = { .hip = { -0.275, 0, 1.02 }, .chest = { -0.06, 0, 1.40 }, .neck = { -0.02, 0, 1.53 }, .head = { 0.05, 0, 1.635 }, .hip_half = 0.09,
-                                 .shoulder = { -0.05, 0.19, 1.45 }, .elbow = { 0.02, 0.285, 1.19 }, .hand = { 0.19, 0.275, 1.055 },
-                                 .knee = { { 0.06, 0.115, 0.66 }, { 0.16, -0.125, 0.84 } }, .ankle = { { -0.10, 0.115, 0.235 }, { -0.14, -0.125, 0.565 } },
-                                 .toe = { { 0.05, 0.13, 0.155 }, { 0.01, -0.13, 0.495 } } };
-    add_rider(s, &rider, level);
+    const struct seat seat = { .hips = { -0.27, 0, 1.02 }, .lean_deg = 16, .nod_deg = 4, .elbows_out = 0.7, .knees_out = 0.08, .toes_deg = { -8, -12 },
+                               .wrist = { { 0.12, 0.27, 1.07 }, { 0.12, -0.27, 1.07 } }, .ankle = { { -0.13, 0.115, 0.20 }, { -0.19, -0.115, 0.53 } } };
+    crew_seat(s, v->crew, CYCLIST, &seat, level != NEAR);
 }
 
-static const struct vehicle_spec motorcycle = { "motorcycle", CLASS_MOTORCYCLE, { 2.07, 0.86, 1.72, 0.79, 1.41, 0, 0.16, 0.60 },
+static const struct vehicle_spec motorcycle = { "motorcycle", CLASS_MOTORCYCLE, { 2.07, 0.79, 1.77, 0.79, 1.41, 0, 0.16, 0.60 },
     "published dimensions of a best-selling standard motorcycle (Honda CB500F), with a rider", make_motorcycle, NULL, NULL, 1 };
-static const struct vehicle_spec bicycle = { "bicycle", CLASS_BICYCLE, { 1.82, 0.71, 1.81, 0.59, 1.08, 0, 0.27, 0.696 },
+static const struct vehicle_spec bicycle = { "bicycle", CLASS_BICYCLE, { 1.82, 0.70, 1.88, 0.59, 1.08, 0, 0.27, 0.696 },
     "dimensions of a city bicycle with 700C wheels (ISO 37-622 tyres), with a rider", make_bicycle, NULL, NULL, 1 };
 
 const struct vehicle_spec *const cycles[] = { &motorcycle, &bicycle };

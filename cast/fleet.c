@@ -26,7 +26,10 @@ bool write_listed_vehicle(struct listing *listing, const struct vehicle_spec *v,
     static const char *const suffix[LEVELS] = { "", "-middle", "-far" };
     for (int level = 0; level < LEVELS; level++) snprintf(file[level], sizeof file[level], "%s%s.glb", v->name, suffix[level]);
     listed.file = file[NEAR], listed.middle = file[MIDDLE], listed.far = file[FAR];
-    return write_vehicle(listed.triangles, v, folder, err) && listing_add(listing, &listed, err);
+    struct crew *crew = crew_create();
+    bool good = write_vehicle(listed.triangles, v, crew, folder, err) && listing_add(listing, &listed, err);
+    crew_destroy(crew);
+    return good;
 }
 
 int fleet_count(void) { return car_count + truck_count + cycle_count; }

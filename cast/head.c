@@ -134,6 +134,23 @@ static void make_cap(struct shape *s, const struct frame *f)
     solid_tip(visor, -0.22);
 }
 
+static void make_cycle_helmet(struct shape *s, const struct frame *f)
+{
+    ball(s, f, JOIN, 0, vec3(-0.05, 0, 0.72), vec3(0.56, 0.44, 0.45));
+    add_half(s, CUT, 0.03 * f->unit, on(f, 0, 0, 0.72), vec3(-0.12, 0, 1));
+    for (int y = -1; y <= 1; y++) rod(s, f, CUT, 0.03, vec3(0.50, 0.17 * y, 1.06), 0.03, vec3(-0.50, 0.20 * y, 1.08), 0.06); /* vents */
+}
+
+/* With a visor, which is a piece of its own. */
+static void make_full_helmet(struct shape *s, const struct frame *f, bool visor)
+{
+    double out = visor ? 0.015 : 0;
+    ball(s, f, JOIN, 0, vec3(-0.04, 0, 0.60), vec3(0.60 + out, 0.50 + out, 0.54 + out));
+    rod(s, f, JOIN, 0.15, vec3(0.32, 0, 0.20), 0.26 + out, vec3(-0.08, 0, 0.28), 0.42 + out);
+    if (visor) add_box(s, KEEP, 0.02 * f->unit, on(f, 0.50, 0, 0.60), size(f, 0.42, 0.6, 0.20), 0.08 * f->unit);
+    else add_half(s, CUT, 0.03 * f->unit, on(f, 0, 0, 0.0), vec3(0, 0, 1));
+}
+
 void wear_head(struct wardrobe *wardrobe, const struct person *person, const struct body *body)
 {
     struct frame f = { body->head_m, vec3(body->at[HEAD].x, 0, body->chin_z) };
@@ -160,6 +177,15 @@ void wear_head(struct wardrobe *wardrobe, const struct person *person, const str
         ball(&on_top->shape, &f, JOIN, 0, vec3(-0.045, 0, 0.72), vec3(0.475, 0.385, 0.38));
         add_half(&on_top->shape, CUT, 0.03 * f.unit, on(&f, 0, 0, 0.60), vec3(-0.22, 0, 1));
         on_top->shape.folds_m = 0.012 * f.unit;
+        break;
+    case CYCLE_HELMET:
+        make_hair(&on_top->shape, &f, CROPPED_HAIR, 1);
+        make_cycle_helmet(&add_garment(wardrobe, HAT_PIECE, cell)->shape, &f);
+        break;
+    case FULL_HELMET:
+        on_top->piece = HAT_PIECE;
+        make_full_helmet(&on_top->shape, &f, false);
+        make_full_helmet(&add_garment(wardrobe, UNDER_PIECE, cell)->shape, &f, true);
         break;
     case HEADSCARF:
         on_top->piece = HAT_PIECE;

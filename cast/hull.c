@@ -43,6 +43,18 @@ void hull_add_shape(struct hull *hull, const struct shape *shape, int piece, dou
     surface_net_release(&net);
 }
 
+static void *copy_of(const void *from, size_t size) { return from ? memcpy(need(malloc(size + 1)), from, size) : NULL; }
+
+struct hull hull_copy(const struct hull *hull)
+{
+    struct hull copy = *hull;
+    copy.point = copy_of(hull->point, hull->points * sizeof *copy.point);
+    copy.piece = copy_of(hull->piece, hull->points);
+    copy.triangle = copy_of(hull->triangle, hull->triangles * sizeof *copy.triangle);
+    copy.material = copy_of(hull->material, hull->triangles);
+    return copy;
+}
+
 void hull_release(struct hull *hull)
 {
     free(hull->point);

@@ -22,6 +22,7 @@ void hull_add_shape(struct hull *hull, const struct shape *shape, int piece, dou
  * In: weight  (pieces) how much an error counts there
  * Src: Garland, Heckbert 1997, Surface simplification using quadric error metrics */
 void hull_decimate(struct hull *hull, size_t triangles, const double *weight);
+struct hull hull_copy(const struct hull *hull);
 void hull_release(struct hull *hull);
 
 #endif

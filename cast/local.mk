@@ -22,12 +22,12 @@ staffage_cast_SOURCES = \
   %D%/main.c \
   %D%/motion.c %D%/motion.h \
   %D%/need.h \
+  %D%/occupant.c %D%/occupant.h \
   %D%/outline.c %D%/outline.h \
   %D%/part.c %D%/part.h \
   %D%/people.c \
   %D%/person.h \
   %D%/pose.c %D%/pose.h \
-  %D%/rider.c %D%/rider.h \
   %D%/shell.c %D%/shell.h \
   %D%/shell_cut.c \
   %D%/shell_decimate.c \

@@ -68,7 +68,7 @@ void shell_mirror(struct shell *shell);
 void shell_smooth(struct shell *shell, size_t first_face, double crease_deg);
 /* Make do with fewer faces: lines between materials stay where they are as well as can be. */
 void shell_decimate(struct shell *shell, size_t faces);
-/* Points nearer than 0.05 mm become one place; triangles that vanish with it go. */
+/* Points nearer than 0.05 mm become one place, and so do those of faces that are but lines; faces that vanish with it go. */
 void shell_clean(struct shell *shell);
 void shell_bounds(struct vec3 *low, struct vec3 *high, const struct shell *shell);
 

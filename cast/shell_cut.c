@@ -108,21 +108,20 @@ static double root(const struct shell *s, const struct form *near, double level,
     return t;
 }
 
-/* Between two points of one side: where the function comes closest to the other side, if it gets there. */
-static bool dips(double *t, const struct shell *s, const struct form *near, double level, uint32_t a, uint32_t b, double va)
+/* Between points p and q: where the function comes furthest to the other side than `side` (-1, 1), if it gets there. */
+static bool dips(double *t, const struct form *near, double level, double side, struct vec3 p, struct vec3 q)
 {
     const double golden = 0.381966;
-    double side = va < 0 ? -1 : 1, low = 0, high = 1, at[2] = { golden, 1 - golden }, v[2];
-    for (int k = 0; k < 2; k++) v[k] = side * (form_at(near, vec3_add(vec3_scale(s->p[a], 1 - at[k]), vec3_scale(s->p[b], at[k]))) - level);
-    for (int i = 0; i < 6 && fmin(v[0], v[1]) >= 0; i++) {
-        int worse = v[0] < v[1];
-        if (worse) high = at[1], at[1] = at[0], v[1] = v[0], at[0] = low + golden * (high - low);
-        else low = at[0], at[0] = at[1], v[0] = v[1], at[1] = high - golden * (high - low);
-        int new = !worse;
-        v[new] = side * (form_at(near, vec3_add(vec3_scale(s->p[a], 1 - at[new]), vec3_scale(s->p[b], at[new]))) - level);
+    double low = 0, high = 1, at[2] = { golden, 1 - golden }, v[2];
+#define VALUE(t) (side * (form_at(near, vec3_add(vec3_scale(p, 1 - (t)), vec3_scale(q, t))) - level))
+    for (int k = 0; k < 2; k++) v[k] = VALUE(at[k]);
+    for (int i = 0; i < 8; i++) {
+        if (v[0] < v[1]) high = at[1], at[1] = at[0], v[1] = v[0], at[0] = low + golden * (high - low), v[0] = VALUE(at[0]);
+        else low = at[0], at[0] = at[1], v[0] = v[1], at[1] = high - golden * (high - low), v[1] = VALUE(at[1]);
     }
+#undef VALUE
     *t = at[v[1] < v[0]];
-    return fmin(v[0], v[1]) < 0;
+    return fmin(v[0], v[1]) < -1e-4;
 }
 
 /* What is narrower than a face must not slip between its corners. */
@@ -137,7 +136,10 @@ static void find_narrow(struct shell *s, const struct form *solid, const struct 
         double length = vec3_norm(vec3_sub(s->p[a], s->p[b])), t;
         if (value[a] * value[b] <= 0 || length < 0.03 || fabs(value[a]) + fabs(value[b]) > length) continue;
         uint32_t *at = slot(&map, edge_key(a, b));
-        if (*at == UINT32_MAX && dips(&t, s, near, level, a, b, value[a])) *at = point_on(s, solid, a, b, t);
+        if (*at == UINT32_MAX && dips(&t, near, level, value[a] < 0 ? -1 : 1, s->p[a], s->p[b])) {
+            *at = point_on(s, solid, a, b, t);
+            s->pinned[*at] = true; /* drawn onto one of its two lines it would be in vain */
+        }
     }
     free(value);
     apply(s, &map);
@@ -165,6 +167,17 @@ static void spare_faces(const struct shell *s, double *best, const struct vec3 *
     }
 }
 
+/* Points of what is narrow stay in it: drawn onto its one line they would lose the other. */
+static void spare_narrow(const struct shell *s, const struct form *near, double level, const double *value, double *best, const struct vec3 *to)
+{
+    for (size_t c = 0; c < 3 * s->faces_count; c++)
+        for (int way = 0; way < 2; way++) {
+            uint32_t a = s->faces[c / 3].v[(c + (size_t)way - c / 3 * 3) % 3], b = s->faces[c / 3].v[(c + (size_t)!way - c / 3 * 3) % 3];
+            double t;
+            if (best[a] < 1e8 && value[a] * value[b] < 0 && dips(&t, near, level, value[b] < 0 ? -1 : 1, to[a], s->p[b])) best[a] = 1e9;
+        }
+}
+
 void shell_cut(struct shell *s, const struct form *solid, const struct form *near, double level)
 {
     find_narrow(s, solid, near, level);
@@ -188,6 +201,7 @@ void shell_cut(struct shell *s, const struct form *solid, const struct form *nea
             best[a] = length;
             to[a] = vec3_add(vec3_scale(s->p[a], 1 - t), vec3_scale(s->p[b], t));
         }
+    spare_narrow(s, near, level, value, best, to);
     spare_faces(s, best, to);
     for (size_t i = 0; i < points; i++) {
         if (best[i] > 1e8) continue;

@@ -192,6 +192,30 @@ static int by_place(const void *a, const void *b)
     return (p->point > q->point) - (p->point < q->point);
 }
 
+static uint32_t one_of(uint32_t *first, uint32_t i)
+{
+    while (first[i] != i) i = first[i] = first[first[i]];
+    return i;
+}
+
+/* Of a face without an area, whose corners lie in a line, the two nearest become one. */
+static bool merge_flat(const struct shell *s, uint32_t *first)
+{
+    bool merged = false;
+    for (size_t f = 0; f < s->faces_count; f++) {
+        uint32_t v[3];
+        for (int k = 0; k < 3; k++) v[k] = one_of(first, s->faces[f].v[k]);
+        if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
+        struct vec3 a = s->p[v[0]], b = s->p[v[1]], c = s->p[v[2]];
+        if (vec3_norm(vec3_cross(vec3_sub(b, a), vec3_sub(c, a))) > 4e-9) continue;
+        double side[3] = { vec3_norm(vec3_sub(b, a)), vec3_norm(vec3_sub(c, b)), vec3_norm(vec3_sub(a, c)) };
+        int k = side[0] <= side[1] && side[0] <= side[2] ? 0 : side[1] <= side[2] ? 1 : 2;
+        first[v[(k + 1) % 3]] = v[k];
+        merged = true;
+    }
+    return merged;
+}
+
 void shell_clean(struct shell *s)
 {
     const double scale = 2e4;
@@ -207,10 +231,12 @@ void shell_clean(struct shell *s)
         bool same = i && !memcmp(places[i].v, places[i - 1].v, sizeof places[i].v);
         first[places[i].point] = same ? first[places[i - 1].point] : places[i].point;
     }
+    while (merge_flat(s, first)) {}
+    for (size_t i = 0; i < s->points; i++) s->p[i] = s->p[one_of(first, (uint32_t)i)];
     size_t kept = 0;
     for (size_t f = 0; f < s->faces_count; f++) {
         const uint32_t *v = s->faces[f].v;
-        uint32_t a = first[v[0]], b = first[v[1]], c = first[v[2]];
+        uint32_t a = one_of(first, v[0]), b = one_of(first, v[1]), c = one_of(first, v[2]);
         if (a != b && b != c && c != a) s->faces[kept++] = s->faces[f];
     }
     s->faces_count = kept;

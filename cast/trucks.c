@@ -79,6 +79,7 @@ static void make_box_truck(struct vehicle *v, const struct vehicle_spec *spec, e
     (void)spec;
     struct shell *s = &v->body;
     car_body(s, &box_cab, level);
+    vehicle_add_driver(v, &box_cab, level);
     add_frame(s, 1.9, -3.35, 0.92, -1.38, 0.405);
     const double half = 1.22, front = 1.62, rear = -3.46, low = 1.0, top = 3.25;
     box(s, front, rear, half, low, top, 0.035, WHITE_PANEL);
@@ -129,6 +130,7 @@ static void make_ambulance(struct vehicle *v, const struct vehicle_spec *spec, e
     (void)spec;
     struct shell *s = &v->body;
     car_body(s, &ambulance_cab, level);
+    vehicle_add_driver(v, &ambulance_cab, level);
     const double half = 1.19, front = 0.98, rear = -3.36, low = 0.62, top = 2.72;
     add_frame(s, 1.2, -3.3, 0.72, -1.68, 0.39);
     /* The box stands over the wheels: three pieces beside and above them. */
@@ -206,6 +208,7 @@ static void make_fire_truck(struct vehicle *v, const struct vehicle_spec *spec, 
     (void)spec;
     struct shell *s = &v->body;
     car_body(s, &fire_cab, level);
+    vehicle_add_driver(v, &fire_cab, level);
     const double half = 1.24, rear = -4.72, top = 2.52;
     add_frame(s, 2.2, -4.6, 0.90, -1.85, 0.515);
     box(s, 4.70, 4.98, 1.20, 0.50, 0.80, 0.05, BRIGHT);              /* bumper */
@@ -271,6 +274,7 @@ static void make_dump_truck(struct vehicle *v, const struct vehicle_spec *spec, 
     (void)spec;
     struct shell *s = &v->body;
     car_body(s, &dump_cab, level);
+    vehicle_add_driver(v, &dump_cab, level);
     const double half = 1.25, front = 0.88, rear = -4.02, low = 1.28, top = 2.72, sheet = 0.06;
     add_frame(s, 2.4, -3.9, 1.06, -1.55, 0.515);
     part_rod(s, vec3(-2.90, -0.9, 0.515), vec3(-2.90, 0.9, 0.515), 0.09, 10, FLOOR);
@@ -328,13 +332,13 @@ static void make_bus(struct vehicle *v, const struct vehicle_spec *spec, enum le
     box(s, 2.2, -0.4, 0.95, 3.02, 3.26, 0.08, WHITE_PANEL);      /* air conditioning, and what is on the roof behind it */
     box(s, -3.4, -5.3, 0.98, 3.02, 3.24, 0.08, WHITE_PANEL);
     static const double door[][2] = { { 5.60, 4.55 }, { 0.12, -1.10 } };
-    for (int k = 0; k < 2 && level != FAR; k++) {                 /* doors on the kerb's side */
+    for (int k = 0; k < 2; k++) {                                 /* doors on the kerb's side */
         double middle = (door[k][0] + door[k][1]) / 2, half = (door[k][0] - door[k][1]) / 2;
         struct coach coach;
         car_coach(&coach, &bus_body);
         double y = -coach_half_width(&coach, k ? middle : middle + 0.3, 1.2);
         part_box(s, vec3(middle, y, 1.42), vec3(half, 0.018, 1.0), 0.008, BLACK_PANEL);
-        for (int leaf = -1; leaf <= 1; leaf += 2)
+        for (int leaf = -1; leaf <= 1 && level != FAR; leaf += 2)
             part_box(s, vec3(middle + leaf * half / 2, y - 0.016, 1.42), vec3(half / 2 - 0.06, 0.008, 0.92), 0.003, BLACK_PANEL);
     }
     for (int row = 0; row < 11 && level == NEAR; row++)           /* seats */

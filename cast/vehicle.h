@@ -2,6 +2,7 @@
 #ifndef STAFFAGE_CAST_VEHICLE_H
 #define STAFFAGE_CAST_VEHICLE_H
 
+#include "cast/occupant.h"
 #include "cast/shell.h"
 #include "lib/class.h"
 #include "lib/error.h"
@@ -13,7 +14,8 @@ enum level { NEAR, MIDDLE, FAR, LEVELS };
 enum { WHEELS = 6 };
 struct wheel { const char *name; struct vec3 hub; int shell; double radius; }; /* shell: which of the vehicle's */
 struct vehicle {
-    struct shell body;
+    struct crew *crew;
+    struct shell body, driver;
     struct shell wheel_shell[WHEELS];
     struct wheel wheel[WHEELS];
     int wheels;
@@ -39,6 +41,6 @@ extern const struct vehicle_spec *const cars[], *const trucks[], *const cycles[]
 extern const int car_count, truck_count, cycle_count;
 
 /* Write FOLDER/NAME.glb, NAME-middle.glb and NAME-far.glb. Out: how many triangles each shows */
-bool write_vehicle(size_t triangles[LEVELS], const struct vehicle_spec *spec, const char *folder, struct error *err);
+bool write_vehicle(size_t triangles[LEVELS], const struct vehicle_spec *spec, struct crew *crew, const char *folder, struct error *err);
 
 #endif

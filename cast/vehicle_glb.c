@@ -118,12 +118,17 @@ static bool write_level(const struct vehicle *v, const struct vehicle_spec *spec
     for (int i = 0; i < COATS; i++) o.material_of[i] = -1;
     add_mesh(&o, &v->body, "body", true);
     fprintf(o.list[NODES].f, "{\"name\":\"%s\",\"children\":[1", spec->name);
-    for (int i = 0; i < v->wheels; i++) fprintf(o.list[NODES].f, ",%d", 2 + i);
+    bool driven = v->driver.faces_count > 0;
+    for (int i = 0; i < v->wheels + driven; i++) fprintf(o.list[NODES].f, ",%d", 2 + i);
     fputs("]},{\"name\":\"body\",\"mesh\":0}", o.list[NODES].f);
     for (int i = 0; i < v->wheels; i++) {
         const struct wheel *w = &v->wheel[i];
         if (v->wheel_shell[i].faces_count) add_mesh(&o, &v->wheel_shell[i], w->name, false);
         fprintf(o.list[NODES].f, ",{\"name\":\"%s\",\"mesh\":%d,\"translation\":[%.9g,%.9g,%.9g]}", w->name, 1 + w->shell, w->hub.y, w->hub.z, w->hub.x);
+    }
+    if (driven) {
+        add_mesh(&o, &v->driver, "driver", false);
+        fprintf(o.list[NODES].f, ",{\"name\":\"driver\",\"mesh\":%d}", 1 + v->wheels);
     }
     int times = add_roll(&o, v);
     for (int i = 0; i < LISTS; i++) text_close(&o.list[i]);
@@ -143,12 +148,12 @@ static bool write_level(const struct vehicle *v, const struct vehicle_spec *spec
 
 void vehicle_release(struct vehicle *v)
 {
-    shell_release(&v->body);
+    shell_release(&v->body), shell_release(&v->driver);
     for (int i = 0; i < WHEELS; i++) shell_release(&v->wheel_shell[i]);
     *v = (struct vehicle){ 0 };
 }
 
-#define FAR_TRIANGLES 1300 /* what some forty pixels can show */
+#define FAR_TRIANGLES 1450 /* what some forty pixels can show */
 
 /* The origin lies below the middle of the box. */
 static double middle_of(const struct vehicle *v)
@@ -165,16 +170,17 @@ static double middle_of(const struct vehicle *v)
 static void move(struct vehicle *v, double x)
 {
     for (size_t i = 0; i < v->body.points; i++) v->body.p[i].x += x;
+    for (size_t i = 0; i < v->driver.points; i++) v->driver.p[i].x += x;
     for (int i = 0; i < v->wheels; i++) v->wheel[i].hub.x += x;
 }
 
-bool write_vehicle(size_t triangles[LEVELS], const struct vehicle_spec *spec, const char *folder, struct error *err)
+bool write_vehicle(size_t triangles[LEVELS], const struct vehicle_spec *spec, struct crew *crew, const char *folder, struct error *err)
 {
     static const char *const suffix[LEVELS] = { "", "-middle", "-far" };
     bool good = true;
     double middle_x = 0;
     for (int level = 0; good && level < LEVELS; level++) {
-        struct vehicle vehicle = { 0 };
+        struct vehicle vehicle = { .crew = crew };
         vehicle.body.least_bevel_m = level == NEAR ? 0.0008 : level == MIDDLE ? 0.025 : 1;
         spec->make(&vehicle, spec, (enum level)level);
         if (level == NEAR) middle_x = middle_of(&vehicle);
@@ -184,9 +190,9 @@ bool write_vehicle(size_t triangles[LEVELS], const struct vehicle_spec *spec, co
             shell_clean(&vehicle.wheel_shell[i]);
             wheels += vehicle.wheel_shell[vehicle.wheel[i].shell].faces_count;
         }
-        shell_clean(&vehicle.body);
+        shell_clean(&vehicle.body), shell_clean(&vehicle.driver);
         if (level == FAR) shell_decimate(&vehicle.body, FAR_TRIANGLES - wheels);
-        triangles[level] = wheels + vehicle.body.faces_count;
+        triangles[level] = wheels + vehicle.body.faces_count + vehicle.driver.faces_count;
         char *path = string_format("%s/%s%s.glb", folder, spec->name, suffix[level]);
         good = path && write_level(&vehicle, spec, path, err);
         free(path);
