@@ -219,10 +219,13 @@ static bool write_picture(const struct adding *a, const char *path, struct error
     const struct vec3 size = vec3_sub(a->model->max_m, a->model->min_m);
     char *absolute = realpath(a->options->file, NULL), *folder = path_folder(path), *work = folder ? string_format("%s/.picture", folder) : NULL;
     struct sitter sitter = { .name = a->name, .file = absolute, .options = a->model_options, .size_m = { size.x, size.y, size.z } };
+    const struct portrait_options options = { .width_px = a->options->width_px, .quick = true, .quiet = true };
     struct portraits portraits = { 0 };
     struct image sheet = { 0 };
+    puts("  ...      is being rendered from four sides");
+    fflush(stdout);
     bool ok = absolute && work ? true : error_set(err, ERR_MEMORY, "no memory for a picture");
-    ok = ok && portraits_make(&portraits, &sitter, 1, sides, SIDE_COUNT, a->options->width_px, work, true, err) &&
+    ok = ok && portraits_make(&portraits, &sitter, 1, sides, SIDE_COUNT, &options, work, err) &&
          sheet_make(&sheet, portraits.pictures, (const char *const[]){ "front", "left side", "rear", "front left, from above" }, SIDE_COUNT, 2, err) &&
          image_write(path, &sheet, err);
     image_release(&sheet);

@@ -1,11 +1,14 @@
 #include "catalogue/guess.h"
 
+#include "catalogue/front.h"
+
 #include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define UNITS 6
+#define UNITS_MORE 2 /* what the file states, and none that anybody uses */
 #define AXES 6
 #define GLANCES 2 /* of the front's axis: the two that are not up */
 
@@ -39,6 +42,9 @@ static const struct { double unit_m, share; } units[UNITS] = {
 /* To 1, that a file is right in what it states: programs turn axes right more often than they scale units. */
 #define UNIT_RIGHT 9.0
 #define AXES_RIGHT 30.0
+/* That a file is in no unit at all: then it is as long as things of its class are. */
+#define UNIT_FREE (UNITS + UNITS_MORE - 1) /* its place among the units */
+#define UNIT_FREE_SHARE 0.0015
 
 bool class_size(struct vec3 *size_m, enum entity_class class_)
 {
@@ -110,7 +116,8 @@ static double along_share(int up, int along, const struct known *known)
 }
 
 /* The units to think of, with their shares. Returns how many. */
-static int unit_choices(double unit_m[UNITS + 1], double share[UNITS + 1], const struct model *raw, int up, int along, const struct known *known)
+static int unit_choices(double unit_m[UNITS + UNITS_MORE], double share[UNITS + UNITS_MORE], const struct model *raw, enum entity_class class_, int up, int along,
+                        const struct known *known)
 {
     int n = 0;
     double given = known->unit_m > 0     ? known->unit_m
@@ -130,10 +137,12 @@ static int unit_choices(double unit_m[UNITS + 1], double share[UNITS + 1], const
         unit_m[n] = known->stated_unit_m;
         share[n++] = UNIT_RIGHT;
     }
+    unit_m[n] = kinds[class_].size_m[0] / extent(raw, along);
+    share[n++] = UNIT_FREE_SHARE;
     return n;
 }
 
-struct sums { double class_[CLASS_COUNT], unit[UNITS + 1], up[AXES], along[3], total; };
+struct sums { double class_[CLASS_COUNT], unit[UNITS + UNITS_MORE], up[AXES], along[3], total; };
 
 static void weigh_size(struct guess *guess, const struct model *raw, const struct known *known)
 {
@@ -144,9 +153,9 @@ static void weigh_size(struct guess *guess, const struct model *raw, const struc
         for (int c = 0; c < CLASS_COUNT; c++)
             for (int up = 0; up < AXES; up++)
                 for (int along = 0; along < 3; along++) {
-                    double unit[UNITS + 1], share[UNITS + 1];
+                    double unit[UNITS + UNITS_MORE], share[UNITS + UNITS_MORE];
                     double prior = class_share((enum entity_class)c, known) * up_share(up, known) * along_share(up, along, known);
-                    int n = prior > 0 ? unit_choices(unit, share, raw, up, along, known) : 0, across = 3 - along - up / 2;
+                    int n = prior > 0 ? unit_choices(unit, share, raw, (enum entity_class)c, up, along, known) : 0, across = 3 - along - up / 2;
                     for (int u = 0; u < n; u++) {
                         double size_m[3] = { unit[u] * extent(raw, along), unit[u] * extent(raw, across), unit[u] * extent(raw, up / 2) };
                         double score = log(prior * share[u]) + likelihood(size_m, (enum entity_class)c);
@@ -157,7 +166,7 @@ static void weigh_size(struct guess *guess, const struct model *raw, const struc
                         double weight = exp(score - peak);
                         sums.class_[c] += weight;
                         /* What the file states is one of the others when it says the same. */
-                        int same = u;
+                        int same = n > 1 && u == n - 1 ? UNIT_FREE : u;
                         for (int k = 0; k < u; k++)
                             if (fabs(unit[k] / unit[u] - 1) < 1e-6) same = k;
                         sums.unit[same] += weight;
@@ -175,102 +184,31 @@ static void weigh_size(struct guess *guess, const struct model *raw, const struc
                     }
                 }
     guess->class_sure = sums.class_[guess->class_] / sums.total;
-    guess->unit_sure = sums.unit[(int)guess->unit_sure] / sums.total;
+    guess->unit_sure = guess->unit_sure == UNIT_FREE ? 0 : sums.unit[(int)guess->unit_sure] / sums.total;
     guess->up_sure = sums.up[guess->up] / sums.total;
     guess->along_sure = sums.along[guess->front / 2] / sums.total;
 }
 
-/* --- shape: which end is the front --- */
-
-struct middle { double sum, area; };
-
-static void add_to(struct middle *middle, double at, double area)
-{
-    middle->sum += at * area;
-    middle->area += area;
-}
-static double middle_of(const struct middle *middle) { return middle->area > 0 ? middle->sum / middle->area : NAN; }
-
-static bool any_of(const char *name, const char *const *words)
-{
-    char plain[128];
-    size_t n = 0;
-    for (const char *c = name; *c && n + 1 < sizeof plain; c++)
-        if (isalpha((unsigned char)*c)) plain[n++] = (char)tolower((unsigned char)*c);
-    plain[n] = 0;
-    for (; *words; words++)
-        if (strstr(plain, *words)) return true;
-    return false;
-}
-
-/* Where along an axis, from 0 to 1, lie: what is at the front by its name, and at the rear; the upper part and all; the toes and the ankles. */
-struct ends { struct middle front, rear, upper, all, toes, ankles; };
-
-static void find_ends(struct ends *ends, const struct model *raw, enum axis up, int along)
-{
-    static const char *const front[] = { "headlight", "headlamp", "frontlight", "grill", NULL };
-    static const char *const rear[] = { "taillight", "taillamp", "rearlight", "rearlamp", "brakelight", "backlight", "stoplight", NULL };
-    const double low[3] = { raw->min_m.x, raw->min_m.y, raw->min_m.z }, high[3] = { raw->max_m.x, raw->max_m.y, raw->max_m.z };
-    for (size_t i = 0; i < raw->mesh_count; i++) {
-        const struct mesh *mesh = &raw->meshes[i];
-        const char *name = raw->materials[mesh->material].name;
-        bool is_front = any_of(name, front), is_rear = any_of(name, rear);
-        for (size_t t = 0; t < mesh->triangles; t++) {
-            double p[3][3];
-            for (int k = 0; k < 3; k++)
-                for (int d = 0; d < 3; d++)
-                    p[k][d] = ((double)mesh->position_m[mesh->triangle[t][k]][d] - low[d]) / fmax(high[d] - low[d], 1e-12);
-            double at = (p[0][along] + p[1][along] + p[2][along]) / 3, z = (p[0][up / 2] + p[1][up / 2] + p[2][up / 2]) / 3;
-            if (up % 2) z = 1 - z;
-            struct vec3 a = vec3(p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]), b = vec3(p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]);
-            double area = vec3_norm(vec3_cross(a, b));
-            if (is_front && !is_rear) add_to(&ends->front, at, area);
-            if (is_rear && !is_front) add_to(&ends->rear, at, area);
-            if (z > 0.7) add_to(&ends->upper, at, area);
-            add_to(&ends->all, at, area);
-            if (z < 0.03) add_to(&ends->toes, at, area);
-            if (z > 0.05 && z < 0.12) add_to(&ends->ankles, at, area);
-        }
-    }
-}
-
-/* How many times likelier the positive end is the front. */
-static double weigh_ends(const char **by, const struct ends *e, bool is_person)
-{
-    double lights = middle_of(&e->front) - middle_of(&e->rear), toes = middle_of(&e->toes) - middle_of(&e->ankles);
-    double one = !isnan(middle_of(&e->front)) ? middle_of(&e->front) - 0.5 : 0.5 - middle_of(&e->rear);
-    double cabin = 0.5 - middle_of(&e->upper);
-    if (isnan(lights)) lights = one;
-    if (fabs(lights) > 0.15 && !is_person) {
-        *by = "names of lights";
-        return lights > 0 ? 40 : 1.0 / 40;
-    }
-    if (is_person && fabs(toes) > 0.04) {
-        *by = "the feet";
-        return toes > 0 ? 30 : 1.0 / 30;
-    }
-    /* The bonnet is low and lies before the cabin; a pickup's bed as well, and behind it. */
-    if (!is_person && fabs(cabin) > 0.03) {
-        *by = "the cabin";
-        return cabin > 0 ? 3 : 1.0 / 3;
-    }
-    *by = "nothing";
-    return 1;
-}
+/* --- all of it --- */
 
 struct guess guess_model(const struct model *raw, const struct known *known)
 {
     struct guess guess = { .front_by = "the user" };
-    struct ends ends = { { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 } };
     weigh_size(&guess, raw, known);
+    bool is_person = class_info(guess.class_)->is_person;
     int along = (int)guess.front / 2;
     if (known->has_front) {
         guess.front = known->front;
         guess.front_sure = 1;
         return guess;
     }
-    find_ends(&ends, raw, guess.up, along);
-    double odds = weigh_ends(&guess.front_by, &ends, class_info(guess.class_)->is_person);
+    double line_odds = is_person ? front_line_odds(raw, guess.up, along) : 1;
+    guess.along_sure *= line_odds / (1 - guess.along_sure + line_odds * guess.along_sure);
+    if (is_person && guess.along_sure < 0.5) {
+        along = 3 - along - (int)guess.up / 2;
+        guess.along_sure = 1 - guess.along_sure;
+    }
+    double odds = front_odds(&guess.front_by, raw, guess.up, along, is_person);
     bool stated = known->format_has_axes && guess.up == AXIS_POS_Y && along == AXIS_POS_Z / 2;
     if (stated) {
         if (odds > 1 / AXES_RIGHT) guess.front_by = "the format";

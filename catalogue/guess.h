@@ -26,7 +26,7 @@ struct guess {
     double unit_m;
     enum axis up, front;
     double class_sure, unit_sure, up_sure, along_sure, front_sure; /* along: the axis of front, whichever way */
-    const char *front_by;       /* what tells which way: "the format", "names of lights", "the feet", "the cabin", "nothing" */
+    const char *front_by;       /* what tells which way: "the format", "the user", or as front_odds says */
     double misfit;              /* how far its size is from that of its class, in standard deviations, at most of its sides */
 };
 

@@ -176,7 +176,7 @@ bool list_pictures(const char *folder, const struct catalogue *catalogue, int wi
     bool ok = (sitters && work) || error_set(err, ERR_MEMORY, "no memory for pictures");
     if (ok && !catalogue->count) ok = error_set(err, ERR_INPUT, "the catalogue is empty: there is nothing to make pictures of");
     for (size_t i = 0; ok && i < catalogue->count; i++) sitters[i] = sitter_of(&catalogue->models[i], (uint32_t)i);
-    ok = ok && portraits_make(&portraits, sitters, catalogue->count, sides, 1, width_px, work, false, err) &&
+    ok = ok && portraits_make(&portraits, sitters, catalogue->count, sides, 1, &(struct portrait_options){ .width_px = width_px }, work, err) &&
          write_pictures(folder, catalogue, &portraits, err) && write_index(folder, catalogue, width_px, err);
     portraits_release(&portraits);
     free(sitters);

@@ -4,6 +4,7 @@ catalogue_libcatalogue_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(JANSSON_CF
 catalogue_libcatalogue_a_SOURCES = \
   %D%/add.c %D%/add.h \
   %D%/folder.c %D%/folder.h \
+  %D%/front.c %D%/front.h \
   %D%/guess.c %D%/guess.h \
   %D%/inspect.c %D%/inspect.h \
   %D%/list.c %D%/list.h \

@@ -18,7 +18,7 @@ static const char help[] =
     "\n"
     "      --json             list as JSON\n"
     "      --pictures FOLDER  write a picture of each model, a sheet of all and index.html\n"
-    "      --width PX         width of a picture (480)\n"
+    "      --width PX         width of a picture (400)\n"
     "\n"
     "Of add; what is left out is found by the model's size and shape, and must be sure:\n"
     "      --name NAME        the short name (the file's)\n"
@@ -80,7 +80,7 @@ int main(int argc, char **argv)
         { "help", no_argument, NULL, 'h' },          { "version", no_argument, NULL, 'V' },
         { 0 },
     };
-    struct add_options add = { .width_px = 480 };
+    struct add_options add = { .width_px = 400 };
     struct known *known = &add.known;
     const char *pictures = NULL;
     bool json = false, of_add = false;

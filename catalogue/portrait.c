@@ -52,7 +52,8 @@ static json_t *shot_of(const struct sitter *s, enum side side, double x)
                      x, -range * cos(above), height / 2 + range * sin(above), "target_m", x, 0.0, 0.48 * height);
 }
 
-static json_t *scene_of(const struct sitter *sitters, size_t n, const enum side *sides, size_t side_count, int width_px)
+static json_t *scene_of(const struct sitter *sitters, size_t n, const enum side *sides, size_t side_count,
+                        const struct portrait_options *options)
 {
     json_t *models = json_object(), *entities = json_array(), *shots = json_array();
     for (size_t i = 0; i < n; i++) {
@@ -71,8 +72,9 @@ static json_t *scene_of(const struct sitter *sitters, size_t n, const enum side 
             json_array_append_new(shots, shot_of(&sitters[i], sides[k], x));
         }
     }
-    return json_pack("{s:i, s:{s:{s:s, s:[ii], s:f}}, s:o, s:{s:s, s:{s:f, s:f}}, s:{s:f, s:f}, s:{s:f}, s:o, s:o}", "staffage", 1, "cameras",
-                     "long", "model", "SIMPLE_PINHOLE", "size_px", width_px, width_px * 3 / 4, "horizontal_fov_deg", VIEW_DEG, "shots", shots,
+    return json_pack("{s:i, s:s, s:{s:{s:s, s:[ii], s:f}}, s:o, s:{s:s, s:{s:f, s:f}}, s:{s:f, s:f}, s:{s:f}, s:o, s:o}", "staffage", 1,
+                     "quality", options->quick ? "draft" : "standard", "cameras", "long", "model", "SIMPLE_PINHOLE", "size_px",
+                     options->width_px, options->width_px * 3 / 4, "horizontal_fov_deg", VIEW_DEG, "shots", shots,
                      "light", "sky", "clear", "sun", "azimuth_deg", 215.0, "elevation_deg", 42.0, "ground", "height_m", 0.0, "albedo",
                      GROUND_ALBEDO, "exposure", "value", EXPOSURE, "models", models, "entities", entities);
 }
@@ -155,16 +157,16 @@ static bool read_pictures(struct portraits *portraits, size_t n, const char *out
 }
 
 bool portraits_make(struct portraits *portraits, const struct sitter *sitters, size_t n, const enum side *sides, size_t side_count,
-                    int width_px, const char *folder, bool quiet, struct error *err)
+                    const struct portrait_options *options, const char *folder, struct error *err)
 {
     struct portraits made = { 0 };
     char *ground = string_format("%s/ground.png", folder), *scene = string_format("%s/scene.yaml", folder), *out = string_format("%s/out", folder),
          *log = string_format("%s/log", folder), *text = NULL;
-    json_t *json = scene_of(sitters, n, sides, side_count, width_px);
+    json_t *json = scene_of(sitters, n, sides, side_count, options);
     bool ok = ground && scene && out && log && json && (text = json_dumps(json, JSON_INDENT(1) | JSON_REAL_PRECISION(9)))
                   ? true : error_set(err, ERR_MEMORY, "no memory for pictures");
-    ok = ok && folder_make(folder, err) && write_ground(ground, width_px, err) && file_write(scene, text, strlen(text), err) &&
-         run_staffage(scene, out, quiet ? log : NULL, err) && read_pictures(&made, n * side_count, out, err);
+    ok = ok && folder_make(folder, err) && write_ground(ground, options->width_px, err) && file_write(scene, text, strlen(text), err) &&
+         run_staffage(scene, out, options->quiet ? log : NULL, err) && read_pictures(&made, n * side_count, out, err);
     if (ok) folder_remove(folder);
     json_decref(json);
     free(text);

@@ -22,14 +22,18 @@ struct sitter {
 
 struct portraits { struct image *pictures; size_t count; }; /* (count) 8 bit sRGB, sitter by sitter, side by side */
 
+struct portrait_options {
+    int width_px;       /* of a picture; its height is 3/4 of it */
+    bool quick;         /* rougher shadows and reflections, at half the cost */
+    bool quiet;         /* do not show the renderer's progress */
+};
+
 /* Render each sitter from each side: write a scene, run `staffage`, which lies beside this program, and read what it made.
- * In:  width_px   of a picture; its height is 3/4 of it
- *      folder     for working files; made, and removed when all went well
- *      quiet      do not show the renderer's progress
+ * In:  folder     for working files; made, and removed when all went well
  * Out: portraits  free with portraits_release
  * Err: ERR_RENDER, ERR_IO, ERR_MEMORY */
 bool portraits_make(struct portraits *portraits, const struct sitter *sitters, size_t n, const enum side *sides, size_t side_count,
-                    int width_px, const char *folder, bool quiet, struct error *err);
+                    const struct portrait_options *options, const char *folder, struct error *err);
 void portraits_release(struct portraits *portraits);
 
 #endif
