@@ -2,11 +2,11 @@
  * CDC growth charts 2000 (mass). */
 #include "cast/person.h"
 
-/* sRGB */
-#define SKIN_PALE { 0.89, 0.71, 0.62 }
-#define SKIN_LIGHT { 0.84, 0.64, 0.53 }
-#define SKIN_OLIVE { 0.76, 0.57, 0.44 }
-#define SKIN_TAN { 0.66, 0.47, 0.35 }
+/* sRGB. Nothing is darker than black cloth and leather are, some 3 to 5 % of the light. */
+#define SKIN_PALE { 0.80, 0.66, 0.58 }
+#define SKIN_LIGHT { 0.75, 0.60, 0.52 }
+#define SKIN_OLIVE { 0.69, 0.53, 0.42 }
+#define SKIN_TAN { 0.61, 0.45, 0.34 }
 #define SKIN_BROWN { 0.47, 0.32, 0.24 }
 #define SKIN_DARK { 0.36, 0.25, 0.19 }
 #define HAIR_BLACK { 0.15, 0.14, 0.14 }
