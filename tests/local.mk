@@ -197,7 +197,7 @@ nodist_EXTRA_tests_gen_casting_test_SOURCES = dummy.cxx
 tests_gen_casting_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/cast/people.test
-tests_cast_people_test_SOURCES = %D%/cast/people.c %D%/cast/surface.h %D%/tap.h
+tests_cast_people_test_SOURCES = %D%/cast/people.c %D%/cast/surface.h %D%/gen/tread.h %D%/tap.h
 nodist_EXTRA_tests_cast_people_test_SOURCES = dummy.cxx
 tests_cast_people_test_LDADD = $(GEN_LIBS)
 check_PROGRAMS += tests/cast/vehicles.test
@@ -213,7 +213,7 @@ nodist_EXTRA_tests_gen_catalogue_test_SOURCES = dummy.cxx
 tests_gen_catalogue_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/gait.test
-tests_gen_gait_test_SOURCES = %D%/gen/gait.c %D%/gen/model_files.h %D%/gen/walker_files.h %D%/tap.h
+tests_gen_gait_test_SOURCES = %D%/gen/gait.c %D%/gen/model_files.h %D%/gen/tread.h %D%/gen/walker_files.h %D%/tap.h
 nodist_EXTRA_tests_gen_gait_test_SOURCES = dummy.cxx
 tests_gen_gait_test_LDADD = $(GEN_LIBS)
 
@@ -263,7 +263,7 @@ nodist_EXTRA_tests_gen_polygon_test_SOURCES = dummy.cxx
 tests_gen_polygon_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/moment.test
-tests_gen_moment_test_SOURCES = %D%/gen/moment.c %D%/gen/model_files.h %D%/tap.h
+tests_gen_moment_test_SOURCES = %D%/gen/moment.c %D%/gen/model_files.h %D%/gen/tread.h %D%/gen/walker_files.h %D%/tap.h
 nodist_EXTRA_tests_gen_moment_test_SOURCES = dummy.cxx
 tests_gen_moment_test_LDADD = $(GEN_LIBS)
 

@@ -4,6 +4,7 @@
 #include "gen/model/rig.h"
 #include "gen/motion/gait.h"
 #include "tests/cast/surface.h"
+#include "tests/gen/tread.h"
 #include "tests/tap.h"
 
 #include <math.h>
@@ -56,38 +57,24 @@ static void check_loops(const struct rig *rig, const char *name)
 static void check_feet(const struct model *m, const char *name, const char *pace)
 {
     struct error err = ERROR_NONE;
-    size_t animation = find_animation(m->rig, pace), total = 0, offset = 0;
+    size_t animation = find_animation(m->rig, pace);
     struct gait gait;
     if (!OK(animation < m->rig->animation_count && gait_create(&gait, m, animation, NULL, &err), "%s has a gait: %s", name, pace)) return;
-    for (size_t i = 0; i < m->mesh_count; i++) total += m->meshes[i].vertices;
-    struct { bool down; double at_m[2]; } *contact = calloc(total, sizeof *contact);
-    double worst = 0, lowest = 0, trodden = 0;
-    int frames = 90;
-    for (int f = 0; f < frames && contact; f++, offset = 0) {
+    struct tread tread = { 0 };
+    for (int f = 0, frames = 90; f < frames; f++) {
         double part = 1.5 * f / frames, gone_m = gait.walks ? gait.stride_m * part : 0;
         struct posture posture = { .animation = animation, .time_s = gait.walks ? gait_time(&gait, gone_m, 0) : gait.duration_s * part };
         struct model posed;
-        bool treads = false;
         if (!model_pose(&posed, m, &posture, &err)) break;
-        for (size_t i = 0; i < posed.mesh_count; offset += posed.meshes[i++].vertices)
-            for (size_t v = 0; v < posed.meshes[i].vertices; v++) {
-                const float *p = posed.meshes[i].position_m[v];
-                double at[2] = { (double)p[0] + gone_m, (double)p[1] };
-                bool touches = p[2] < 0.005f;
-                if (touches && !contact[offset + v].down) memcpy(contact[offset + v].at_m, at, sizeof at);
-                if (touches) worst = fmax(worst, hypot(at[0] - contact[offset + v].at_m[0], at[1] - contact[offset + v].at_m[1]));
-                contact[offset + v].down = touches;
-                lowest = fmin(lowest, (double)p[2]);
-                treads = treads || touches;
-            }
-        trodden += treads;
+        tread_add(&tread, &posed, &(struct pose){ mat3_identity(), vec3(gone_m, 0, 0) });
         model_posed_release(&posed);
     }
-    free(contact);
     bool runs = !strcmp(pace, "run"), stands = !strcmp(pace, "stand");
+    double trodden = (double)tread.trodden / 90;
     OK(gait.walks == !stands, "%s, %s: it %s", name, pace, stands ? "stays" : "goes ahead");
-    OK(runs ? trodden > 0.5 * frames && trodden < 0.95 * frames : trodden > 0.9 * frames, "%s, %s: on its feet for %.0f of %d", name, pace, trodden, frames);
-    OK(worst < 0.03 && lowest > -0.02, "%s, %s: feet slide %.1f mm, sink %.1f mm in at most", name, pace, 1000 * worst, -1000 * lowest);
+    OK(runs ? trodden > 0.5 && trodden < 0.95 : trodden > 0.9, "%s, %s: on its feet for %.0f %% of the time", name, pace, 100 * trodden);
+    OK(tread.slide_m < 0.03 && tread.sunk_m < 0.02, "%s, %s: feet slide %.1f mm, sink %.1f mm in at most", name, pace, 1000 * tread.slide_m, 1000 * tread.sunk_m);
+    tread_release(&tread);
     gait_release(&gait);
 }
 
@@ -143,7 +130,7 @@ static void check_person(const struct catalogue_model *listed, size_t number)
         check_weights(listed->files[detail], name);
         check_loops(m->rig, name);
         if (detail == DETAIL_NEAR) check_size(m, listed);
-        /* Poses take their time: all from the air, every fourth from near as well. */
+        /* Poses take their time: all from the air, every eighth from near as well. */
         if (detail == DETAIL_FAR || (detail == DETAIL_NEAR && number % 8 == 0))
             for (size_t i = 0; i < sizeof paces / sizeof *paces; i++) check_feet(m, name, paces[i]);
         model_destroy(m);

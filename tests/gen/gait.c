@@ -3,6 +3,7 @@
 
 #include "gen/model/rig.h"
 #include "tests/gen/model_files.h"
+#include "tests/gen/tread.h"
 #include "tests/gen/walker_files.h"
 
 #define COUNT(a) (sizeof(a) / sizeof *(a))
@@ -14,43 +15,23 @@ static struct model *load_walker(const char *name)
     return load(in_folder("top_builddir", name), &(struct model_options){ 0 });
 }
 
-/* Each point of the body that touches the ground, as long as it does: where it came down, in the world. */
-struct contact { bool down; double at_m[2]; };
-
-/* Walk for two loops at a speed, a picture 1/50 s, and see how far any point goes over the ground while it is
- * within 5 mm of it. Nothing of this is told by the gait: only heights and places of posed vertices. */
+/* Walk for two loops at a speed, a picture 1/50 s, and see how far any point goes over the ground while it is on it. */
 static void walk(const struct model *model, const struct gait *gait, double speed_m_s, const char *name)
 {
     struct error err = ERROR_NONE;
-    size_t total = 0, offset = 0;
-    for (size_t i = 0; i < model->mesh_count; i++) total += model->meshes[i].vertices;
-    struct contact *contact = calloc(total, sizeof *contact);
-    double worst = 0, down = 0;
+    struct tread tread = { 0 };
     int frames = (int)(2 * gait->stride_m / speed_m_s * 50);
-    for (int f = 0; f < frames && contact; f++, offset = 0) {
+    for (int f = 0; f < frames; f++) {
         double gone_m = speed_m_s * f / 50;
         struct model posed;
-        bool stands = false;
         if (!model_pose(&posed, model, &(struct posture){ .time_s = gait_time(gait, gone_m, 0.3) }, &err)) break;
-        for (size_t i = 0; i < posed.mesh_count; offset += posed.meshes[i++].vertices)
-            for (size_t v = 0; v < posed.meshes[i].vertices; v++) {
-                const float *p = posed.meshes[i].position_m[v];
-                struct contact *c = &contact[offset + v];
-                double at[2] = { (double)p[0] + gone_m, (double)p[1] };
-                bool touches = p[2] < 0.005f;
-                if (touches && !c->down) memcpy(c->at_m, at, sizeof at);
-                if (touches) worst = fmax(worst, hypot(at[0] - c->at_m[0], at[1] - c->at_m[1]));
-                c->down = touches;
-                stands = stands || touches;
-            }
-        down += stands;
+        tread_add(&tread, &posed, &(struct pose){ mat3_identity(), vec3(gone_m, 0, 0) });
         model_posed_release(&posed);
     }
-    free(contact);
     OK(err.code == ERR_OK && frames > 40, "%s walks at %.1f m/s", name, speed_m_s);
-    OK(down == frames, "it always stands on a foot");
-    if (OK(worst < 0.03, "what is down stays within 3 cm")) printf("# %.1f mm at most\n", 1000 * worst);
-    else printf("# %.1f mm\n", 1000 * worst);
+    OK(tread.trodden == frames, "it always stands on a foot");
+    OK(tread.slide_m < 0.03, "what is down stays within 3 cm (%.1f mm)", 1000 * tread.slide_m);
+    tread_release(&tread);
 }
 
 static void walkers_keep_their_feet_still(void)

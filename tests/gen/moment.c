@@ -2,6 +2,7 @@
 #include "gen/moment.h"
 
 #include "tests/gen/model_files.h"
+#include "tests/gen/tread.h"
 #include "tests/gen/walker_files.h"
 #include "tests/tap.h"
 
@@ -158,42 +159,17 @@ static void check_gait(const struct stage *stage)
     moment_release(&before);
 }
 
-/* Over a time, in pictures 1/50 s apart: how far a point of him goes over the ground while it is on it, and from one picture to
- * the next. Nothing of this is told by gaits: only where posed vertices are in the world. */
-struct tread { double slide_m, jump_m, sunk_m; };
-
-static struct vec3 point(const struct entity *e, size_t mesh, size_t v)
-{
-    const float *p = e->model->meshes[mesh].position_m[v];
-    return pose_apply(e->world_from_entity, vec3((double)p[0], (double)p[1], (double)p[2]));
-}
-
+/* Over a time, in pictures 1/50 s apart. The scene's ground is at 2 m. */
 static struct tread tread_of(const struct stage *stage, size_t who, double from_s, double to_s)
 {
     struct tread tread = { 0 };
-    size_t total = 0, k;
-    struct moment m = at(stage, from_s);
-    for (size_t i = 0; i < m.entities[who].model->mesh_count; i++) total += m.entities[who].model->meshes[i].vertices;
-    struct { bool down; struct vec3 at_m, last_m; } *foot = calloc(total, sizeof *foot);
-    for (int f = 0; foot && from_s + 0.02 * f < to_s; f++) {
+    for (double time_s = from_s; time_s < to_s; time_s += 0.02) {
+        struct moment m = at(stage, time_s);
+        struct pose pose = m.entities[who].world_from_entity;
+        pose.translation.z -= 2;
+        tread_add(&tread, m.entities[who].model, &pose);
         moment_release(&m);
-        m = at(stage, from_s + 0.02 * f);
-        const struct entity *e = &m.entities[who];
-        k = 0;
-        for (size_t i = 0; i < e->model->mesh_count; i++)
-            for (size_t v = 0; v < e->model->meshes[i].vertices; v++, k++) {
-                struct vec3 p = point(e, i, v);
-                bool down = p.z < 2.005;
-                if (down && !foot[k].down) foot[k].at_m = p;
-                if (down) tread.slide_m = fmax(tread.slide_m, hypot(p.x - foot[k].at_m.x, p.y - foot[k].at_m.y));
-                if (f > 0) tread.jump_m = fmax(tread.jump_m, vec3_norm(vec3_sub(p, foot[k].last_m)));
-                tread.sunk_m = fmax(tread.sunk_m, 2 - p.z);
-                foot[k].down = down;
-                foot[k].last_m = p;
-            }
     }
-    free(foot);
-    moment_release(&m);
     return tread;
 }
 
@@ -208,6 +184,7 @@ static void check_halts(const struct stage *stage)
         OK(t.slide_m < 0.03 && t.sunk_m < 0.02, "%s: his feet slide %.0f mm, sink %.0f mm in at most", known[i].what, 1000 * t.slide_m, 1000 * t.sunk_m);
         /* A foot that swings goes at four to five times his speed at most. */
         OK(t.jump_m < 5 * 1.4 * 0.02, "%s: no point of him goes more than %.0f mm in 1/50 s", known[i].what, 1000 * t.jump_m);
+        tread_release(&t);
         struct moment moves = at(stage, known[i].moves_s), stands = at(stage, known[i].stands_s), later = at(stage, known[i].stands_s - 0.02);
         NEAR(vec3_norm(moves.velocity_m_s[known[i].who]), 1.4, 1e-9, "%s: at his speed on the way", known[i].what);
         struct vec3 p = stands.entities[known[i].who].world_from_entity.translation, q = later.entities[known[i].who].world_from_entity.translation;
