@@ -62,7 +62,7 @@ static void draw_decal(struct shell *s, const struct coach *coach, const struct 
     }
     if (level == NEAR) shell_refine(s, solid, &form, 0.004, 0.045 * coarseness(coach));
     shell_cut(s, solid, &form, 0);
-    int region = d->trace == FILL || level == FAR ? d->coat : LAMP_REGION + index;
+    int region = level == FAR && d->trace == LAMP_HOUSE ? FAR_LAMP : d->trace == FILL || level == FAR ? d->coat : LAMP_REGION + index;
     shell_paint(s, &form, -10, 0, -1, region);
 }
 
@@ -176,11 +176,12 @@ static void add_mirror(struct shell *left, const struct car_spec *spec, const st
         part_blob(left, vec3(at.x, (flank + at.y - half.y) / 2 + 0.02, at.z - 0.8 * half.z), vec3(0.035, fabs(at.y - half.y - flank) / 2 + 0.06, 0.022), 0.6, 8, TRIM_COAT);
 }
 
-static void add_plate(struct shell *body, const struct coach *coach, double sign, double z)
+static void add_plate(struct shell *body, const struct coach *coach, double sign, double z, enum level level)
 {
     if (z == 0) return;
     double x = sign * fmax(sign * coach_end(coach, sign, 0, z), fmax(sign * coach_end(coach, sign, 0, z + 0.07), sign * coach_end(coach, sign, 0, z - 0.07))) + sign * 0.004;
     part_box(body, vec3(x, 0, z), vec3(0.006, 0.152, 0.076), 0.003, PLATE_WHITE);
+    if (level != NEAR) return;
     static const double at[] = { -0.105, -0.065, -0.025, 0.035, 0.075, 0.115 };
     for (int k = 0; k < 6; k++) part_box(body, vec3(x + sign * 0.005, at[k], z - 0.005), vec3(0.002, 0.012, 0.032), 0.0005, PLATE_TEXT);
     part_box(body, vec3(x + sign * 0.005, 0, z + 0.058), vec3(0.002, 0.06, 0.008), 0.0005, PLATE_TEXT);
@@ -198,11 +199,11 @@ static void add_fittings(struct shell *body, const struct coach *coach, const st
     struct shell left = { 0 };
     add_mirror(&left, spec, coach, level);
     if (level != FAR && spec->seat_z > 0) add_seats(&left, body, spec, level);
+    add_plate(body, coach, 1, spec->plate_z.x, level);
+    add_plate(body, coach, -1, spec->plate_z.y, level);
     if (level == NEAR) {
         for (int i = 0; i < DOORS; i++)
             if (spec->door[i].handle_x != 0) add_handle(&left, coach, spec->door[i].handle_x, spec->handle_z);
-        add_plate(body, coach, 1, spec->plate_z.x);
-        add_plate(body, coach, -1, spec->plate_z.y);
         if (spec->badge_z.x > 0) part_blob(body, vec3(coach_end(coach, 1, 0, spec->badge_z.x), 0, spec->badge_z.x), vec3(0.012, 0.055, 0.034), 0.9, 16, BRIGHT);
         if (spec->badge_z.y > 0) part_blob(body, vec3(coach_end(coach, -1, 0, spec->badge_z.y), 0, spec->badge_z.y), vec3(0.010, 0.05, 0.03), 0.9, 16, BRIGHT);
         if (spec->wiper_x != 0)
@@ -308,7 +309,7 @@ void car_body(struct shell *body, const struct car_spec *spec, enum level level)
         }
         if (level == NEAR) shell_sink(&s, LAMP_REGION + i, d->trace == LAMP_HOUSE ? TRIM_COAT : d->coat, inward, &d->depth);
         for (size_t f = 0; f < s.faces_count; f++)
-            if (s.faces[f].material == LAMP_REGION + i) s.faces[f].material = (uint8_t)d->coat;
+            if (s.faces[f].material == LAMP_REGION + i) s.faces[f].material = (uint8_t)(level == MIDDLE && d->trace == LAMP_HOUSE ? FAR_LAMP : d->coat);
     }
     for (int a = 0; a < 2; a++) {
         struct vec3 middle = vec3(spec->axle_x[a], spec->arch_inner_y, coach.axle_z);

@@ -44,14 +44,14 @@ static const struct car_spec taxi = { SEDAN_COACH,
 
 static const struct car_spec hatchback = {
     .coach = { .side = { { 1.98, 0.165, 0.10 }, { 2.10, 0.24, 0.08 }, { 2.142, 0.48, 0.14 }, { 2.10, 0.69, 0.08 }, { 1.99, 0.78, 0.12 },
-                         { 1.54, 0.915, 0.42 }, { 0.99, 1.00, 0.14 }, { 0.10, 1.405, 0.32 }, { -0.30, 1.492, 0.5 }, { -1.10, 1.478, 0.4 }, { -1.74, 1.405, 0.10 },
+                         { 1.54, 0.915, 0.42 }, { 0.99, 1.00, 0.14 }, { 0.10, 1.380, 0.32 }, { -0.30, 1.457, 0.5 }, { -1.10, 1.445, 0.4 }, { -1.74, 1.380, 0.10 },
                          { -1.98, 1.06, 0.10 }, { -2.08, 0.95, 0.06 }, { -2.09, 0.74, 0.08 }, { -2.142, 0.58, 0.12 }, { -2.11, 0.32, 0.10 },
                          { -1.90, 0.20, 0.12 }, { -1.0, 0.15, 0.3 }, { 1.4, 0.15, 0.3 }, END },
                .half_width = 0.895, .belt = { 0.90, 1.02 }, .tumble = 0.34, .bulge = 0.20, .shoulder = 0.035, .tuck = 0.07, .tuck_z = 0.42,
                .scallop = 0.013, .scallop_drop = 0.20, .taper = { 0.16, 0.10 }, .taper_from = { 0.9, -0.9 }, .house = { 0.10, 0.16 },
                .sweep = { 0.26, 0.16 }, .crown = 0.075, .crown_z = 0.75, .round = 0.07, .round_end = 0.15, .flare = 0.012 },
     .axle_x = { 1.275, -1.361 }, .arch_gap = 0.03, .arch_inner_y = 0.58, .wheel = { 0.632, 0.205, 0.42, ALLOY_RIM, 5, RIM_COAT }, .wheel_out = 0.018,
-    .screen = { { CLEAR_WINDOW, { 0.98, 1.005 }, { 0.05, 1.425 }, 0.075, 0.08 }, { TINTED_WINDOW, { -1.955, 1.095 }, { -1.765, 1.37 }, 0.14, 0.06 } },
+    .screen = { { CLEAR_WINDOW, { 0.98, 1.005 }, { 0.05, 1.400 }, 0.075, 0.08 }, { TINTED_WINDOW, { -1.955, 1.095 }, { -1.765, 1.347 }, 0.14, 0.06 } },
     .window = { { CLEAR_WINDOW, 1.05, -1.0, -0.22, -0.09 }, { CLEAR_WINDOW, -0.30, -0.09, -1.12, 0.20 }, { TINTED_WINDOW, -1.16, 0.20, -1.40, 0.45 } },
     .window_sill = 0.018, .window_frame = 0.08, .window_round = 0.035,
     .door = { { 0.88, -0.05, -0.255, -0.09, -0.08 }, { -0.261, -0.09, -1.12, 0.20, -1.00 } }, .door_bottom = 0.26, .door_frame = 0.05, .handle_z = 0.85,
@@ -60,7 +60,7 @@ static const struct car_spec hatchback = {
                ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.03, 0.63, 0.43, 0.685, 0.44, 0.02), ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.05, 0.25, 0.62, 0.44, 0.50, 0.05),
                ACROSS(FILL, MARK_REAR, TRIM_COAT, 0, 0.1, 0.75, 0.37, 0.60, 0.06), BONNET(1.93, 0.95, 0.77), LID(0.66, 1.46, 0.66), BUMPER(1.67, 0.38, 1.76, 0.64),
                BUMPER(-1.76, 0.38, -1.86, 0.78) },
-    .skirt_z = 0.20, .seat_x = { -0.08, -0.92 }, .seat_z = 0.50, .cabin = { 1.08, -2.4, 0.62 },
+    .skirt_z = 0.20, .seat_x = { -0.08, -0.92 }, .seat_z = 0.47, .cabin = { 1.08, -2.4, 0.62 },
     .mirror = { 0.56, 0.955, 1.00 }, .mirror_half = { 0.075, 0.105, 0.072 }, .badge_z = { 0.735, 0.88 }, .plate_z = { 0.50, 0.60 }, .wiper_x = 0.95, .wiper_z = 1.03, .fin = false };
 
 static const struct car_spec estate = {
@@ -179,7 +179,7 @@ static const struct car_spec pickup = {
 #define SIZES(...) { __VA_ARGS__ }
 CAR(sedan, CLASS_CAR, SIZES(4.885, 2.18, 1.445, 1.84, 2.825, 1.58, 0.155, 0.672), "published dimensions of a best-selling mid-size sedan (Toyota Camry, 2018)", NULL, 4);
 CAR(taxi, CLASS_CAR, SIZES(4.885, 2.18, 1.545, 1.84, 2.825, 1.58, 0.155, 0.672), "the sedan, with a roof sign", "#e8b010", 0.3);
-CAR(hatchback, CLASS_CAR, SIZES(4.284, 2.12, 1.491, 1.789, 2.636, 1.54, 0.15, 0.632), "published dimensions of a best-selling compact hatchback (Volkswagen Golf, 2020)", NULL, 2);
+CAR(hatchback, CLASS_CAR, SIZES(4.284, 2.12, 1.456, 1.789, 2.636, 1.54, 0.15, 0.632), "published dimensions of a best-selling compact hatchback (Volkswagen Golf, 2020)", NULL, 2);
 CAR(estate, CLASS_CAR, SIZES(4.77, 2.17, 1.50, 1.832, 2.791, 1.57, 0.15, 0.651), "published dimensions of a best-selling estate (Volkswagen Passat Variant, 2015)", NULL, 1);
 CAR(suv, CLASS_CAR, SIZES(4.60, 2.20, 1.685, 1.855, 2.69, 1.60, 0.20, 0.716), "published dimensions of a best-selling compact SUV (Toyota RAV4, 2019)", NULL, 5);
 CAR(minivan, CLASS_CAR, SIZES(5.16, 2.37, 1.74, 1.994, 3.00, 1.71, 0.16, 0.69), "published dimensions of a best-selling mini-van (Honda Odyssey, 2018)", NULL, 1);

@@ -34,7 +34,7 @@ void hull_add_shape(struct hull *hull, const struct shape *shape, int piece, dou
     for (size_t i = 0; i < net.points; i++) net.point[i] = settle(shape, net.point[i], cell_m);
     for (size_t i = 0; i < net.quads; i++) {
         uint32_t(*to)[3] = &hull->triangle[hull->triangles + 2 * i];
-        quad_split(to, net.quad[i], net.point);
+        quad_split(to, net.quad[i], net.point, 0);
         for (int k = 0; k < 6; k++) to[k / 3][k % 3] += (uint32_t)hull->points;
     }
     memcpy(hull->point + hull->points, net.point, net.points * sizeof *net.point);

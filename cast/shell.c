@@ -55,7 +55,7 @@ void shell_face(struct shell *s, uint32_t a, uint32_t b, uint32_t c, int materia
 void shell_quad(struct shell *s, uint32_t a, uint32_t b, uint32_t c, uint32_t d, int material)
 {
     uint32_t t[2][3];
-    quad_split(t, (const uint32_t[]){ a, b, c, d }, s->p);
+    quad_split(t, (const uint32_t[]){ a, b, c, d }, s->p, 1e-9);
     for (int half = 0; half < 2; half++) shell_face(s, t[half][0], t[half][1], t[half][2], material);
 }
 

@@ -95,9 +95,9 @@ void surface_net_release(struct surface_net *net)
     *net = (struct surface_net){ 0 };
 }
 
-void quad_split(uint32_t triangle[2][3], const uint32_t q[4], const struct vec3 *p)
+void quad_split(uint32_t triangle[2][3], const uint32_t q[4], const struct vec3 *p, double even_m)
 {
-    int s = vec3_norm(vec3_sub(p[q[0]], p[q[2]])) > vec3_norm(vec3_sub(p[q[1]], p[q[3]])) + 1e-9;
+    int s = vec3_norm(vec3_sub(p[q[0]], p[q[2]])) > vec3_norm(vec3_sub(p[q[1]], p[q[3]])) + even_m;
     for (int half = 0; half < 2; half++) {
         triangle[half][0] = q[s];
         triangle[half][1] = q[s + 1 + half];

@@ -22,7 +22,8 @@ struct net_grid { struct vec3 low, cell_m; int n[3]; };
  *              cell. INFINITY: all of it is. */
 struct surface_net surface_net_create(const struct form *solid, const struct net_grid *grid, double slack_m);
 void surface_net_release(struct surface_net *net);
-/* A quad's two triangles, along its shorter diagonal, with its points where they are now. */
-void quad_split(uint32_t triangle[2][3], const uint32_t quad[4], const struct vec3 *point);
+/* A quad's two triangles, along its shorter diagonal, with its points where they are now: the first where it is not longer by more than
+ * `even_m`. */
+void quad_split(uint32_t triangle[2][3], const uint32_t quad[4], const struct vec3 *point, double even_m);
 
 #endif

@@ -308,22 +308,22 @@ static void make_dump_truck(struct vehicle *v, const struct vehicle_spec *spec, 
 /* --- city bus --- */
 
 static const struct car_spec bus_body = {
-    .coach = { .side = { { 6.00, 0.34, 0.10 }, { 6.10, 0.46, 0.10 }, { 6.11, 0.95, 0.2 }, { 6.07, 1.25, 0.2 }, { 5.86, 2.80, 0.25 }, { 5.62, 3.02, 0.25 }, { 4.0, 3.06, 0.5 },
-                         { -5.7, 3.06, 0.3 }, { -6.04, 2.92, 0.25 }, { -6.10, 1.6, 0.3 }, { -6.10, 0.7, 0.15 }, { -5.95, 0.40, 0.15 }, { -3.0, 0.30, 0.2 }, { 3.0, 0.30, 0.2 }, END },
-               .half_width = 1.275, .belt = { 1.15, 1.15 }, .tumble = 0.035, .bulge = 0.004, .shoulder = 0.008, .tuck = 0.01, .tuck_z = 0.60,
-               .taper = { 0.13, 0.05 }, .taper_from = { 5.2, -5.4 }, .sweep = { 0.14, 0.04 }, .crown = 0.045, .crown_z = 2.2, .round = 0.16, .round_end = 0.17 },
-    .axle_x = { 3.42, -2.68 - 1.0 }, .arch_gap = 0.07, .arch_inner_y = 0.85, .wheel = { 0.97, 0.28, 0.57, TRUCK_RIM, 10, RIM_COAT },
+    .coach = { .side = { { 6.14, 0.34, 0.10 }, { 6.24, 0.46, 0.10 }, { 6.25, 0.95, 0.2 }, { 6.21, 1.25, 0.2 }, { 6.00, 2.80, 0.25 }, { 5.76, 3.02, 0.25 }, { 4.0, 3.06, 0.5 },
+                         { -5.84, 3.06, 0.3 }, { -6.18, 2.92, 0.25 }, { -6.25, 1.6, 0.3 }, { -6.25, 0.7, 0.15 }, { -6.10, 0.40, 0.15 }, { -3.0, 0.30, 0.2 }, { 3.0, 0.30, 0.2 }, END },
+               .half_width = 1.295, .belt = { 1.15, 1.15 }, .tumble = 0.035, .bulge = 0.004, .shoulder = 0.008, .tuck = 0.01, .tuck_z = 0.60,
+               .taper = { 0.13, 0.05 }, .taper_from = { 5.3, -5.5 }, .sweep = { 0.14, 0.04 }, .crown = 0.045, .crown_z = 2.2, .round = 0.16, .round_end = 0.17 },
+    .axle_x = { 3.95, -3.257 }, .arch_gap = 0.07, .arch_inner_y = 0.85, .wheel = { 0.97, 0.28, 0.57, TRUCK_RIM, 10, RIM_COAT },
     .rear_wheel = { 0.97, 0.26, 0.57, TWIN_RIM, 10, RIM_COAT }, .wheel_out = 0.03,
-    .screen = { { CLEAR_WINDOW, { 6.08, 1.18 }, { 5.90, 2.52 }, 0.10, 0.12 }, { TINTED_WINDOW, { -6.08, 1.95 }, { -6.045, 2.62 }, 0.20, 0.10 } },
-    .window = { { CLEAR_WINDOW, 5.72, -0.10, 4.62, 0 }, { TINTED_WINDOW, 4.54, 0, 3.12, 0 }, { TINTED_WINDOW, 3.04, 0, 1.62, 0 }, { TINTED_WINDOW, 1.54, 0, 0.12, 0 },
-                { TINTED_WINDOW, 0.04, 0, -1.38, 0 }, { TINTED_WINDOW, -1.46, 0, -2.88, 0 }, { TINTED_WINDOW, -2.96, 0, -4.38, 0 }, { TINTED_WINDOW, -4.46, 0, -5.45, 0 } },
+    .screen = { { CLEAR_WINDOW, { 6.22, 1.18 }, { 6.04, 2.52 }, 0.10, 0.12 }, { TINTED_WINDOW, { -6.225, 1.95 }, { -6.19, 2.62 }, 0.20, 0.10 } },
+    .window = { { CLEAR_WINDOW, 5.86, -0.10, 4.62, 0 }, { TINTED_WINDOW, 4.54, 0, 3.12, 0 }, { TINTED_WINDOW, 3.04, 0, 1.62, 0 }, { TINTED_WINDOW, 1.54, 0, 0.12, 0 },
+                { TINTED_WINDOW, 0.04, 0, -1.38, 0 }, { TINTED_WINDOW, -1.46, 0, -2.88, 0 }, { TINTED_WINDOW, -2.96, 0, -4.38, 0 }, { TINTED_WINDOW, -4.46, 0, -5.60, 0 } },
     .window_sill = 0.06, .window_frame = 0.14, .window_round = 0.06, .window_top = 2.44,
     .decal = { { FILL, MARK_FRONT, LAMP, 0, { { 0.84, 0.72, 0.04 }, { 1.20, 0.74, 0.05 }, { 1.40, 0.80, 0.03 }, { 1.38, 0.94, 0.03 }, { 0.86, 0.92, 0.03 }, END }, true },
                ACROSS(FILL, MARK_FRONT, BLACK_PANEL, 0, 2.54, 1.0, 2.90, 0.98, 0.06), ACROSS(FILL, MARK_FRONT, DISPLAY, 0, 2.60, 0.70, 2.82, 0.70, 0.02),
                { FILL, MARK_SIDE, WHITE_PANEL, 0, { { 9, 2.52, 0.01 }, { -9, 2.52, 0.01 }, { -9, 4, 0.01 }, { 9, 4, 0.01 }, END }, true },
                { FILL, MARK_REAR, REAR_LAMP, 0, { { 0.98, 0.86, 0.03 }, { 1.16, 0.86, 0.03 }, { 1.16, 1.52, 0.03 }, { 0.98, 1.52, 0.03 }, END }, true },
                ACROSS(SINK, MARK_REAR, TRIM_COAT, 0.02, 0.95, 0.75, 1.60, 0.75, 0.05), ACROSS(FILL, MARK_FRONT, TRIM_COAT, 0, 0.2, 1.7, 0.56, 1.7, 0.05) },
-    .skirt_z = 0.40, .cabin = { 6.3, -6.3, 1.0 }, .mirror = { 6.02, 1.36, 2.05 }, .mirror_coat = TRIM_COAT, .mirror_half = { 0.07, 0.10, 0.20 }, .plate_z = { 0.50, 0.78 }, .wiper_x = 6.09, .wiper_z = 1.24 };
+    .skirt_z = 0.40, .cabin = { 6.5, -6.5, 1.0 }, .mirror = { 6.16, 1.38, 2.05 }, .mirror_coat = TRIM_COAT, .mirror_half = { 0.07, 0.10, 0.20 }, .plate_z = { 0.50, 0.78 }, .wiper_x = 6.23, .wiper_z = 1.24 };
 
 static void make_bus(struct vehicle *v, const struct vehicle_spec *spec, enum level level)
 {
@@ -331,7 +331,7 @@ static void make_bus(struct vehicle *v, const struct vehicle_spec *spec, enum le
     struct shell *s = &v->body;
     box(s, 2.2, -0.4, 0.95, 3.02, 3.26, 0.08, WHITE_PANEL);      /* air conditioning, and what is on the roof behind it */
     box(s, -3.4, -5.3, 0.98, 3.02, 3.24, 0.08, WHITE_PANEL);
-    static const double door[][2] = { { 5.60, 4.55 }, { 0.12, -1.10 } };
+    static const double door[][2] = { { 5.74, 4.62 }, { 0.12, -1.10 } };
     for (int k = 0; k < 2; k++) {                                 /* doors on the kerb's side */
         double middle = (door[k][0] + door[k][1]) / 2, half = (door[k][0] - door[k][1]) / 2;
         struct coach coach;
@@ -351,7 +351,7 @@ static void make_bus(struct vehicle *v, const struct vehicle_spec *spec, enum le
             part_turn(s, first, vec3(x - 0.22, 0, 1.1), -10, 0, 0);
         }
     if (level == NEAR)
-        for (int k = 0; k < 4; k++) boxes(s, 4.5 - 3.0 * k, 4.4 - 3.0 * k, 1.262, 1.28, 0.86, 0.90, 0.004, k == 3 ? REAR_LAMP : TURN_LAMP);
+        for (int k = 0; k < 4; k++) boxes(s, 4.5 - 3.0 * k, 4.4 - 3.0 * k, 1.282, 1.30, 0.86, 0.90, 0.004, k == 3 ? REAR_LAMP : TURN_LAMP);
 }
 
 #define TRUCK(id, name, class, make, form, source, color, ...) \
@@ -365,7 +365,7 @@ TRUCK(fire_truck, "fire-truck", CLASS_FIRE_TRUCK, make_fire_truck, NULL, "publis
 TRUCK(dump_truck, "dump-truck", CLASS_CONSTRUCTION, make_dump_truck, NULL, "published dimensions of three-axle dump trucks with a 16 ft bed (Mack Granite, Kenworth T880)", "#c07818",
       8.15, 2.72, 3.0, 2.59, 5.3, 2.05, 0.30, 1.03);
 TRUCK(bus, "city-bus", CLASS_BUS, make_bus, &bus_body, "published dimensions of 40 ft low-floor city buses (New Flyer Xcelsior XD40)", "#b02024",
-      12.22, 2.92, 3.26, 2.55, 7.10, 2.21, 0.30, 0.97);
+      12.5, 2.96, 3.26, 2.59, 7.21, 2.25, 0.30, 0.97);
 
 const struct vehicle_spec *const trucks[] = { &spec_box_truck, &spec_bus, &spec_ambulance, &spec_fire_truck, &spec_dump_truck };
 const int truck_count = sizeof trucks / sizeof *trucks;

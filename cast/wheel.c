@@ -14,8 +14,8 @@ static void add_tyre(struct shell *s, const struct wheel_spec *w, double y, int 
         { R, y + 0.70 * h, TYRE }, { R, y - 0.70 * h, TYRE }, { R - 0.05 * wall, y - 0.84 * h, TYRE }, { r + 0.45 * wall, y - 1.00 * h, TYRE },
         { r - 0.012, y - 0.80 * h, RIM_DARK }, { r - 0.03, y, RIM_DARK }, { r - 0.012, y + 0.80 * h, RIM_DARK } };
     const struct ring coarse[] = {
-        { r, y + 0.80 * h, TYRE }, { r + 0.6 * wall, y + 1.00 * h, TYRE }, { R, y + 0.70 * h, TYRE }, { R, y - 0.70 * h, TYRE },
-        { r + 0.6 * wall, y - 1.00 * h, TYRE }, { r, y - 0.80 * h, RIM_DARK }, { r, y + 0.80 * h, RIM_DARK } };
+        { r - 0.012, y + 0.80 * h, w->coat }, { r + 0.006, y + 0.84 * h, TYRE }, { r + 0.6 * wall, y + 1.00 * h, TYRE }, { R, y + 0.70 * h, TYRE },
+        { R, y - 0.70 * h, TYRE }, { r + 0.6 * wall, y - 1.00 * h, TYRE }, { r - 0.012, y - 0.80 * h, RIM_DARK }, { r - 0.012, y + 0.80 * h, RIM_DARK } };
     if (level == NEAR) part_lathe(s, vec3(0, 0, 0), fine, COUNT(fine), n, 50);
     else part_lathe(s, vec3(0, 0, 0), coarse, COUNT(coarse), n, 60);
 }
@@ -40,7 +40,8 @@ static void add_far(struct shell *s, const struct wheel_spec *w)
     enum { SIDES = 12 };
     double R = w->diameter_m / 2, r = w->rim_diameter_m / 2, h = w->width_m / 2, inner = w->rim == TWIN_RIM ? -1.12 * w->width_m - h : -h;
     double face = w->rim == TWIN_RIM ? -0.5 * h : 0.6 * h;
-    const struct ring wheel[] = { { 0, face, w->coat }, { r, face, TYRE }, { r + 0.01, 0.95 * h, TYRE }, { R, 0.8 * h, TYRE }, { R, inner, TYRE }, { 0, inner, TYRE } };
+    int disc = w->coat == RIM_COAT ? STEEL : w->coat; /* with the dark between its spokes */
+    const struct ring wheel[] = { { 0, face, disc }, { r, face, TYRE }, { r + 0.01, 0.95 * h, TYRE }, { R, 0.8 * h, TYRE }, { R, inner, TYRE }, { 0, inner, TYRE } };
     const struct ring tyre[] = { { r, 0.8 * h, TYRE }, { R, 0.7 * h, TYRE }, { R, -0.7 * h, TYRE }, { r, -0.8 * h, TYRE }, { r, 0.8 * h, TYRE } };
     if (w->rim == CAST_RIM || w->rim == WIRE_RIM) part_lathe(s, vec3(0, 0, 0), tyre, COUNT(tyre), SIDES, 60);
     else part_lathe(s, vec3(0, 0, 0), wheel, COUNT(wheel), SIDES, 50);

@@ -137,6 +137,7 @@ static bool add_entity(struct moment *moment, const struct stage *stage, size_t 
         return error_prefix(err, "entity \"%s\": ", e->name);
     }
     moment->velocity_m_s[moment->n] = velocity(entity, progress.speed_m_s, heading);
+    posture.parked = e->parked;
     if (!pose_entity(moment, &posture, err)) return false;
     moment->n++;
     return true;

@@ -1,5 +1,5 @@
 # scenes: what runs from a fresh clone.
-EXTRA_DIST += %D%/brighton/scene.yaml %D%/demo/scene.yaml %D%/craig/sunny.yaml %D%/craig/wet.yaml %D%/craig/median.yaml
+EXTRA_DIST += %D%/brighton/scene.yaml %D%/demo/scene.yaml %D%/craig/fleet.sh %D%/craig/sunny.yaml %D%/craig/wet.yaml %D%/craig/median.yaml
 .PHONY: demo
 demo: all
 	@test -f $(srcdir)/%D%/demo/vtest.avi || { echo 'demo: %D%/demo/vtest.avi is missing: ./bootstrap fetches it' >&2; exit 1; }

@@ -226,7 +226,7 @@ void fill(gltf *out, const tinygltf::Model &model)
     });
     each(&out->nodes, &out->node_count, model.nodes, [](gltf_node &to, const tinygltf::Node &from) {
         to = { from.mesh, from.skin, copy(from.children), from.children.size(), from.matrix.size() == 16,
-               any(from.weights), {}, { 0, 0, 0 }, { 0, 0, 0, 1 }, { 1, 1, 1 } };
+               any(from.weights), {}, { 0, 0, 0 }, { 0, 0, 0, 1 }, { 1, 1, 1 }, from.name == "driver" };
         std::copy_n(from.matrix.begin(), to.has_matrix ? 16 : 0, to.matrix);
         std::copy_n(from.translation.begin(), from.translation.size() == 3 ? 3 : 0, to.translation);
         std::copy_n(from.rotation.begin(), from.rotation.size() == 4 ? 4 : 0, to.rotation);

@@ -41,6 +41,7 @@ struct gltf_node {
     bool has_matrix, is_morphed;
     double matrix[16]; /* column-major, as in the file */
     double translation[3], rotation[4] /* x, y, z, w */, scale[3];
+    bool is_driver; /* by its name */
 };
 struct gltf_skin { int inverse_bind, *joints; size_t joint_count; };
 enum gltf_path { GLTF_TRANSLATION, GLTF_ROTATION, GLTF_SCALE };

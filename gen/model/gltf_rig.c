@@ -23,6 +23,7 @@ static bool add_nodes(struct gltf_loader *l)
         const struct gltf_node *from = &g->nodes[i];
         struct rig_node *to = &rig->nodes[i];
         to->parent = -1;
+        to->is_driver = from->is_driver;
         to->has_matrix = from->has_matrix;
         if (from->has_matrix) to->matrix = affine_from_columns(from->matrix);
         else if (!(square_norm(from->rotation) > 1e-12)) return GLTF_FAIL(l, "node %zu: a rotation of norm zero", i);

@@ -255,6 +255,17 @@ static void lift(struct model *model, double up_m)
     measure(model);
 }
 
+static void leave_driver_out(struct model *posed, const struct rig *rig)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < posed->mesh_count; i++) {
+        struct mesh *mesh = &posed->meshes[i];
+        if (rig->nodes[rig->meshes[i].node].is_driver) free(mesh->position_m), free(mesh->normal);
+        else posed->meshes[kept++] = *mesh;
+    }
+    posed->mesh_count = kept;
+}
+
 bool model_pose(struct model *posed, const struct model *model, const struct posture *posture, struct error *err)
 {
     if (!model->rig) return error_at(err, ERR_INPUT, model->path, 0, 0, "has no animation: it cannot move");
@@ -274,6 +285,7 @@ bool model_pose(struct model *posed, const struct model *model, const struct pos
         error_prefix(err, "at %.3f s: ", posture->time_s);
         return at_path(model, err);
     }
+    if (posture->parked) leave_driver_out(&made, model->rig);
     measure(&made);
     if (posture->share > 0 && posture->share < 1 && made.min_m.z < 0) lift(&made, -made.min_m.z);
     *posed = made;

@@ -65,7 +65,7 @@ void model_destroy(struct model *model);
 
 /* The model in a posture of its animations (gen/model/rig.h). Unit and origin stay the loaded
  * model's: the lowest point may leave the ground. What the animation itself goes along the front axis
- * is taken out, for whoever moves the model moves it.
+ * is taken out, for whoever moves the model moves it. A parked one has no driver (the node of that name).
  * Out: posed   the caller's storage: positions, normals and the box are its own, the rest is borrowed
  *              from the model, which must outlive it; its rig is NULL. Free with model_posed_release.
  * Err: ERR_INPUT at the model's path: it has no animation; a coordinate is not a number. ERR_MEMORY */

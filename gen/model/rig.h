@@ -17,6 +17,7 @@ struct rig_node {
     bool has_matrix;
     struct affine matrix;           /* instead of the three: no channel moves such a node */
     double translation[3], rotation[4] /* x, y, z, w */, scale[3];
+    bool is_driver;                 /* who is not there while a vehicle is parked */
 };
 struct rig_channel {                /* one of a node's three, over time */
     size_t node, keys;
@@ -49,7 +50,7 @@ struct rig_animation {
 };
 
 /* What a body does at a moment: an animation at a time, looped, and a share of the way from it to another. */
-struct posture { size_t animation; double time_s; size_t to; double to_time_s, share; /* 0: none of it */ };
+struct posture { size_t animation; double time_s; size_t to; double to_time_s, share; /* 0: none of it */ bool parked; };
 
 struct rig {
     struct rig_node *nodes;

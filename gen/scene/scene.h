@@ -100,6 +100,7 @@ struct scene_entity {
     char *path;                /* name of a road or path that it follows, or NULL: it stands */
     double start_m, offset_m;  /* along the path at time 0, also before and behind it; to its left */
     double speed_m_s;          /* along the path, negative: backward, facing that way */
+    bool parked;               /* nobody is at the wheel */
     bool has_color;
     double color[3];           /* linear */
     struct source source, at_source;

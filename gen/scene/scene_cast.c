@@ -135,6 +135,8 @@ static bool read_entity(const struct reading *r, struct scene_entity *entity, co
             return FAIL(r, node,
                         "entity \"%s\": class is missing, and its model \"%.80s\" has none", entity->name, of->name);
     }
+    yaml_boolean(&entity->parked, yaml_get(node, "parked"));
+    if (entity->parked && yaml_get(node, "path")) return FAIL(r, yaml_get(node, "parked"), "%s: who follows a path is not parked", who);
     entity->has_color = color != NULL;
     if (color) scene_read_color(entity->color, color);
     return read_course(r, entity, node, who);

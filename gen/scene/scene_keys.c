@@ -194,6 +194,7 @@ static const struct schema_key keys[] = {
     { "entities[].start_m", TYPE_NUMBER, "m", .presence = OPTIONAL },
     { "entities[].offset_m", TYPE_NUMBER, "m", LIMITS(-100, 100) },
     { "entities[].speed_m_s", TYPE_NUMBER, "m/s", LIMITS(-100, 100) },
+    { "entities[].parked", TYPE_BOOLEAN, .preset = "false" },
     { "entities[].color", TYPE_COLOR | TYPE_NUMBERS, COUNT(3), LIMITS(0, 1) },
 
     { "occluders", TYPE_ITEMS, .preset = "[]" },

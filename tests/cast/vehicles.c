@@ -19,7 +19,7 @@ static const struct { const char *name; enum entity_class class_; int wheels; } 
     { "ambulance", CLASS_AMBULANCE, 4 }, { "fire-truck", CLASS_FIRE_TRUCK, 4 }, { "dump-truck", CLASS_CONSTRUCTION, 6 },
     { "motorcycle", CLASS_MOTORCYCLE, 2 }, { "bicycle", CLASS_BICYCLE, 2 }
 };
-static const int most_triangles[DETAIL_COUNT] = { 51000, 10000, 1500 };
+static const int most_triangles[DETAIL_COUNT] = { 51000, 10500, 1500 };
 
 /* --- sizes and wheels --- */
 
@@ -83,6 +83,22 @@ static void check_wheels(const struct model *m, const char *path, int wheels, co
        "%s: all of them roll", name);
 }
 
+/* Who drives sits within: parked or not, a vehicle has the same size. */
+static void check_driver(const struct model *m, bool expected, const char *name)
+{
+    struct error err = ERROR_NONE;
+    struct model posed[2];
+    double size[2][3];
+    for (int parked = 0; parked < 2; parked++) {
+        if (!OK(model_pose(&posed[parked], m, &(struct posture){ .parked = parked }, &err), "%s: stands %s", name, parked ? "parked" : "manned")) return;
+        const struct model *p = &posed[parked];
+        memcpy(size[parked], (double[]){ p->max_m.x - p->min_m.x, p->max_m.y - p->min_m.y, p->max_m.z - p->min_m.z }, sizeof size[0]);
+    }
+    OK((posed[1].mesh_count < posed[0].mesh_count) == expected && !memcmp(size[0], size[1], sizeof size[0]), "%s: %s", name,
+       expected ? "parked, nobody is in it, and it has the same size" : "there is no driver to leave out");
+    for (int parked = 0; parked < 2; parked++) model_posed_release(&posed[parked]);
+}
+
 static void check_vehicle(const struct catalogue_model *listed, int wheels, const struct material_rules *rules)
 {
     struct stated stated = stated_of(listed->home, listed->name);
@@ -106,6 +122,7 @@ static void check_vehicle(const struct catalogue_model *listed, int wheels, cons
         check_surface(m, name, false);
         check_size(m, listed, name);
         check_wheels(m, listed->files[detail], wheels, &stated, name);
+        check_driver(m, wheels > 2 && detail != DETAIL_FAR && listed->class_ != CLASS_BUS, name);
         model_destroy(m);
     }
 }
