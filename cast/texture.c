@@ -109,7 +109,7 @@ static double fold_shade(double y, double z, double seed)
     double slant = 0.5 * noise(vec3(y * 5, z * 5, 1), seed);
     double down = noise(vec3(y * 17 + 3 * slant, z * 4, 2), seed), across = noise(vec3(y * 5 + 3 * z, z * 13 + 7 * y + 4 * slant, 3), seed + 2);
     double crease = ramp(0.10, 0.0, fabs(across - 0.5)) * noise(vec3(y * 8, z * 8, 6), seed);
-    return 1 + 0.22 * (down - 0.5) + 0.10 * (across - 0.5) - 0.10 * crease;
+    return 1 + 0.28 * (down - 0.5) + 0.12 * (across - 0.5) - 0.14 * crease;
 }
 
 static struct color paint_cloth(struct color c, enum pattern pattern, double y, double z, double seed)
