@@ -23,6 +23,7 @@ gen_libgen_a_SOURCES = \
   %D%/light/daylight.c %D%/light/daylight.h \
   %D%/light/exposure.c %D%/light/exposure.h \
   %D%/light/light.c %D%/light/light.h \
+  %D%/light/map_sun.c %D%/light/map_sun.h \
   %D%/light/measured_sky.c %D%/light/measured_sky.h \
   %D%/light/orthophoto.c %D%/light/orthophoto.h \
   %D%/light/panorama.c %D%/light/panorama.h \
@@ -87,6 +88,7 @@ gen_libgen_a_SOURCES = \
   %D%/scene/yaml.c %D%/scene/yaml.h \
   %D%/shutter.c %D%/shutter.h \
   %D%/stage.c %D%/stage.h \
+  %D%/stage_cast.c %D%/stage_cast.h \
   %D%/trace/backdrop.c %D%/trace/backdrop.h \
   %D%/trace/cast.c %D%/trace/cast.h \
   %D%/sunlit.c %D%/sunlit.h \

@@ -43,6 +43,9 @@ struct stage {
 bool stage_create(struct stage **stage, const struct scene *scene, const struct material_rules *rules, struct error *err);
 void stage_destroy(struct stage *stage);
 
+/* Take a text over as something to warn of, also on failure. Err: ERR_MEMORY, also for NULL */
+bool stage_warn(struct stage *stage, char *text, struct error *err);
+
 /* The class of an entity of the scene. */
 enum entity_class stage_class(const struct stage *stage, size_t entity);
 /* The colour, linear, that one of this id is painted in when the scene gives none: drawn from those that its model

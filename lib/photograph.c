@@ -10,6 +10,12 @@ bool photograph_in_proportion(const struct image *image, const char *path, int w
                     image->width_px, image->height_px, width_px, height_px);
 }
 
+bool photograph_is_of_integers(const struct image *image, const char *path, struct error *err)
+{
+    return image->type != PIXEL_F32 ||
+           error_at(err, ERR_INPUT, path, 0, 0, "is a float image: a photograph has 8 or 16 bits a channel");
+}
+
 /* The colour channels alone. */
 static bool keep_rgb(struct image *rgb, const struct image *in, struct error *err)
 {
@@ -28,10 +34,7 @@ bool photograph_read(struct image *rgb, const char *path, int width_px, int heig
     if (!image_read(&stored, path, err)) return false;
     bool ok = false, scaled = stored.width_px != width_px || stored.height_px != height_px;
     if (scaled && !photograph_in_proportion(&stored, path, width_px, height_px, err)) goto out;
-    if (stored.type == PIXEL_F32) {
-        error_at(err, ERR_INPUT, path, 0, 0, "is a float image: a photograph has 8 or 16 bits a channel");
-        goto out;
-    }
+    if (!photograph_is_of_integers(&stored, path, err)) goto out;
     if (!scaled && stored.type == PIXEL_U8) {
         if (stored.channels == 3) {
             *rgb = stored;

@@ -16,4 +16,8 @@ bool photograph_read(struct image *rgb, const char *path, int width_px, int heig
  * Err: ERR_INPUT at `path` when it is not */
 bool photograph_in_proportion(const struct image *image, const char *path, int width_px, int height_px, struct error *err);
 
+/* Has an image 8 or 16 bits a channel, as photographs have?
+ * Err: ERR_INPUT at `path` when it has not */
+bool photograph_is_of_integers(const struct image *image, const char *path, struct error *err);
+
 #endif

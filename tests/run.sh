@@ -171,6 +171,7 @@ check "usage: -j wants a count" usage_error run x.yaml -j many
 check "usage: an option without its value" usage_error run x.yaml -o
 check "usage: no scene" usage_error run
 check "usage: two scenes" usage_error run a.yaml b.yaml
+check "usage: light writes nothing: it takes no -o" usage_error light x.yaml -o out
 check "usage: render takes no --seed" usage_error render out --seed 3
 run "$staffage" run nowhere.yaml
 check "a scene that is not there: gen's words and status" test $status = 1 -a ! -e out/nowhere

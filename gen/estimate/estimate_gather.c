@@ -2,6 +2,7 @@
 
 #include "gen/estimate/shadow_edges.h"
 #include "lib/image.h"
+#include "lib/photograph.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -25,7 +26,7 @@ bool look_at(struct looked_at *l, const struct stage *stage, const struct estima
     *l = (struct looked_at){ .stage = stage, .shot = &s->shots[photograph->shot], .index = index };
     if (!image_read(&image, photograph->path, err)) return false;
     l->camera = camera_scaled(&s->cameras[l->shot->camera].camera, image.width_px, image.height_px);
-    bool ok = tones_of(&l->tones, &image, err);
+    bool ok = photograph_is_of_integers(&image, l->shot->photograph ? l->shot->photograph : photograph->path, err) && tones_of(&l->tones, &image, err);
     image_release(&image);
     if (!ok || !ground_view_of(&l->view, stage, &l->tones, &l->camera, l->shot->world_from_camera, err)) return false;
     if (s->has_mist) ground_view_clear(&l->tones, &l->view, s->visibility_m, s->haze);

@@ -158,6 +158,14 @@ static bool has_all_colors(const struct image *picture)
     return has[0] && has[1] && has[2];
 }
 
+/* The scene names the map: there it is to be mended, or another to be named. */
+static bool map_fault(struct error *err, const struct scene *scene, const struct error *of_map)
+{
+    if (!of_map->file[0]) return error_set(err, of_map->code, "%s", of_map->text);
+    return error_at(err, of_map->code, scene->path, scene->map.source.line, scene->map.source.column, "light.map.file: %.400s: %s", of_map->file,
+                    of_map->text);
+}
+
 /* Three channels, nothing negative, nothing that is no number. */
 static bool check_picture(struct image *clean, const struct image *picture, const char *file, struct error *err)
 {
@@ -189,19 +197,21 @@ bool measured_sky_read(struct measured_sky *measured, const struct scene *scene,
     const struct scene_map *m = &scene->map;
     struct image file = { 0 }, picture = { 0 }, reduced = { 0 };
     struct measured_sky made = { 0 };
-    bool ok = image_read(&file, m->file, err) && check_picture(&picture, &file, m->file, err);
+    struct error of_map = ERROR_NONE;
+    bool ok = image_read(&file, m->file, &of_map) && check_picture(&picture, &file, m->file, &of_map);
     image_release(&file);
-    if (!ok) return false;
+    if (!ok) return map_fault(err, scene, &of_map);
     int width = picture.width_px;
     struct map map = { &picture, m->by_column ? m->north_px : (0.5 - m->middle_rad / (2 * M_PI)) * width, scene->north_rad };
     if (m->by_column && m->north_px > width) {
         ok = error_at(err, ERR_INPUT, scene->path, m->north_source.line, m->north_source.column,
                       "light.map.north_px: the map is %d px wide", width);
     } else if (!(median_luminance(&picture) > 0)) {
-        ok = error_at(err, ERR_INPUT, m->file, 0, 0, "has no light above the horizon");
+        error_at(&of_map, ERR_INPUT, m->file, 0, 0, "has no light above the horizon");
     } else if (!has_all_colors(&picture)) {
-        ok = error_at(err, ERR_INPUT, m->file, 0, 0, "has no red, no green or no blue above the horizon: light for photographs has all three");
+        error_at(&of_map, ERR_INPUT, m->file, 0, 0, "has no red, no green or no blue above the horizon: light for photographs has all three");
     }
+    if (of_map.code != ERR_OK) ok = map_fault(err, scene, &of_map);
     ok = ok && (scene->sun == SUN_NONE || find_sun(&made, &map, scene, towards, err));
     if (ok) { /* rows in fours: the horizon stays an edge */
         int to = width > WIDTH_MAX ? WIDTH_MAX : width / 4 * 4;

@@ -1,6 +1,7 @@
 /* Measured skies: maps made here, whose light is known by hand. */
 #include "gen/light/light.h"
 
+#include "gen/light/map_sun.h"
 #include "gen/light/sky_image.h"
 #include "lib/file.h"
 #include "tests/tap.h"
@@ -103,6 +104,41 @@ static void check_quarter(char *file)
     image_release(&map);
 }
 
+/* Greenwich at noon in midsummer: the sun is in the south but for the equation of time, 23.4 deg higher than at an equinox. */
+static void check_doubt(char *file)
+{
+    static const struct { double azimuth_deg, elevation_deg; bool doubted; } suns[] = {
+        { 180, 62, false }, { 170, 55, false }, { 180, 42, true }, { 230, 62, true }, { 0, 62, true } };
+    for (size_t i = 0; i < sizeof suns / sizeof *suns; i++) {
+        struct image map = map_of(suns[i].azimuth_deg, suns[i].elevation_deg, SUN_LUX, 0);
+        struct error err = ERROR_NONE;
+        struct scene scene = scene_of(file, 0);
+        struct light light;
+        char *text = NULL;
+        scene.north_rad = 1; /* of the world: the map has its own */
+        scene.place = (struct geodetic){ 51.4779 * M_PI / 180, 0, 0 };
+        scene.time_utc = (struct utc_time){ 2021, 6, 21, 12, 0, 0 };
+        scene.has_time = true;
+        if (!OK(image_write(file, &map, &err) && light_create(&light, &scene, &err), "a map is read")) return;
+        OK(map_sun_doubt(&text, &light, &scene, &err) && !text, "without a place no sun is doubted");
+        scene.has_place = true;
+        OK(map_sun_doubt(&text, &light, &scene, &err) && (text != NULL) == suns[i].doubted, "a sun at %g, %g is %sdoubted",
+           suns[i].azimuth_deg, suns[i].elevation_deg, suns[i].doubted ? "" : "not ");
+        if (text) {
+            double shown[2] = { NAN, NAN }, computed[2] = { NAN, NAN };
+            OK(sscanf(text, "scene.yaml:8:30: light.map: its sun stands at azimuth %lf deg, elevation %lf deg; by place and time it is at azimuth "
+                            "%lf deg, elevation %lf", &shown[0], &shown[1], &computed[0], &computed[1]) == 4, "%s", text);
+            NEAR(remainder(shown[0] - suns[i].azimuth_deg, 360), 0, 1, "the sun of the map");
+            NEAR(shown[1], suns[i].elevation_deg, 1, "its elevation");
+            NEAR(computed[0], 180, 2, "the sun by the time");
+            NEAR(computed[1], 90 - 51.48 + 23.44, 0.1, "its elevation");
+        }
+        free(text);
+        light_release(&light);
+        image_release(&map);
+    }
+}
+
 static void check_refusal(struct scene *scene, const char *name, const char *file, int line, const char *text)
 {
     struct error err = ERROR_NONE;
@@ -168,23 +204,24 @@ int main(void)
     check_refusal(&scene, "a sun that was clipped", "scene.yaml", 8, "a clipped sun gives no shadows");
     spot[1] = NAN;
     OK(image_write(exr, &map, &err), "a map is written");
-    check_refusal(&scene, "no number", exr, 0, "has a pixel that is no number, at (100, 60)");
+    check_refusal(&scene, "no number", "scene.yaml", 8, "has a pixel that is no number, at (100, 60)");
     memset(map.data, 0, image_size(&map));
     OK(image_write(exr, &map, &err), "a map is written");
-    check_refusal(&scene, "a black map", exr, 0, "no light above the horizon");
+    check_refusal(&scene, "a black map", "scene.yaml", 8, "no light above the horizon");
     for (int i = 0; i < WIDTH * HEIGHT; i++) ((float *)map.data)[3 * i] = ((float *)map.data)[3 * i + 1] = SKY;
     OK(image_write(exr, &map, &err), "a map is written");
-    check_refusal(&scene, "a map without blue", exr, 0, "has no red, no green or no blue above the horizon");
+    check_refusal(&scene, "a map without blue", "scene.yaml", 8, "has no red, no green or no blue above the horizon");
     image_release(&map);
     if (image_init(&map, 300, 200, 3, PIXEL_F32, &err) && image_write(exr, &map, &err))
-        check_refusal(&scene, "a picture that is no map", exr, 0, "is 300x200 px: an equirectangular map is twice as wide as high");
+        check_refusal(&scene, "a picture that is no map", "scene.yaml", 8, "is 300x200 px: an equirectangular map is twice as wide as high");
     image_release(&map);
     char *png = string_format("%s/map.png", folder);
     scene.map.file = png;
     if (image_init(&map, 64, 32, 3, PIXEL_U8, &err) && image_write(png, &map, &err))
-        check_refusal(&scene, "a picture of 8 bits", png, 0, "has integer pixels");
+        check_refusal(&scene, "a picture of 8 bits", "scene.yaml", 8, "has integer pixels");
     image_release(&map);
     check_quarter(exr);
+    check_doubt(exr);
 
     unlink(exr);
     unlink(hdr);
