@@ -55,6 +55,7 @@ static void draw_decal(struct shell *s, const struct coach *coach, const struct 
     struct form form = mark_form(&mark);
     if (d->trace == LINE) {
         double half = d->depth / 2;
+        shell_refine(s, solid, &form, half, 0.07 * coarseness(coach)); /* or corners come out as wedges */
         shell_cut(s, solid, &form, half);
         shell_cut(s, solid, &form, -half);
         shell_paint(s, &form, -half, half, PAINT_COAT, d->coat);

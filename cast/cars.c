@@ -27,7 +27,7 @@
     .window = { { CLEAR_WINDOW, 1.15, -1.0, -0.155, -0.10 }, { CLEAR_WINDOW, -0.235, -0.10, -1.12, 0.30 }, { TINTED_WINDOW, -1.16, 0.30, -1.46, 0.70 } }, \
     .window_sill = 0.018, .window_frame = 0.075, .window_round = 0.035, \
     .door = { { 1.00, -0.05, -0.19, -0.10, -0.02 }, { -0.196, -0.10, -1.13, 0.30, -1.00 } }, .door_bottom = 0.27, .door_frame = 0.045, .handle_z = 0.84, \
-    .skirt_z = 0.20, .seat_x = { 0.0, -0.86 }, .seat_z = 0.47, .cabin = { 1.22, -1.80, 0.60 }, \
+    .skirt_z = 0.20, .seat_x = { 0.0, -0.86 }, .seat_z = 0.44, .cabin = { 1.22, -1.80, 0.60 }, \
     .mirror = { 0.66, 0.985, 0.99 }, .mirror_half = { 0.075, 0.105, 0.072 }, .badge_z = { 0.72, 0 }, .plate_z = { 0.50, 0.62 }, .wiper_x = 1.08, .wiper_z = 1.015
 #define SEDAN_LAMPS \
     { LAMP_HOUSE, MARK_FRONT, REFLECTOR, 0.05, { { 0.47, 0.615, 0.04 }, { 0.80, 0.635, 0.05 }, { 1.08, 0.73, 0.03 }, { 0.98, 0.775, 0.04 }, { 0.66, 0.735, 0.06 }, { 0.47, 0.69, 0.03 }, END }, true }, \
@@ -60,7 +60,7 @@ static const struct car_spec hatchback = {
                ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.03, 0.63, 0.43, 0.685, 0.44, 0.02), ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.05, 0.25, 0.62, 0.44, 0.50, 0.05),
                ACROSS(FILL, MARK_REAR, TRIM_COAT, 0, 0.1, 0.75, 0.37, 0.60, 0.06), BONNET(1.93, 0.95, 0.77), LID(0.66, 1.46, 0.66), BUMPER(1.67, 0.38, 1.76, 0.64),
                BUMPER(-1.76, 0.38, -1.86, 0.78) },
-    .skirt_z = 0.20, .seat_x = { -0.08, -0.92 }, .seat_z = 0.47, .cabin = { 1.08, -2.4, 0.62 },
+    .skirt_z = 0.20, .seat_x = { -0.08, -0.92 }, .seat_z = 0.44, .cabin = { 1.08, -2.4, 0.62 },
     .mirror = { 0.56, 0.955, 1.00 }, .mirror_half = { 0.075, 0.105, 0.072 }, .badge_z = { 0.735, 0.88 }, .plate_z = { 0.50, 0.60 }, .wiper_x = 0.95, .wiper_z = 1.03, .fin = false };
 
 static const struct car_spec estate = {
@@ -81,7 +81,7 @@ static const struct car_spec estate = {
                ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.03, 0.60, 0.41, 0.715, 0.42, 0.03), ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.05, 0.245, 0.64, 0.42, 0.52, 0.05),
                ACROSS(FILL, MARK_REAR, TRIM_COAT, 0, 0.1, 0.75, 0.37, 0.62, 0.06), BONNET(2.15, 1.07, 0.79), LID(0.66, 1.45, 0.68), BUMPER(1.84, 0.38, 1.96, 0.63),
                BUMPER(-1.75, 0.38, -2.02, 0.78) },
-    .skirt_z = 0.20, .seat_x = { -0.02, -0.88 }, .seat_z = 0.49, .cabin = { 1.20, -2.6, 0.60 }, .rails = { 0.0, -1.75, 0.60 },
+    .skirt_z = 0.20, .seat_x = { -0.02, -0.88 }, .seat_z = 0.46, .cabin = { 1.20, -2.6, 0.60 }, .rails = { 0.0, -1.75, 0.60 },
     .mirror = { 0.64, 0.98, 0.985 }, .mirror_half = { 0.075, 0.105, 0.072 }, .badge_z = { 0.665, 0.88 }, .plate_z = { 0.47, 0.62 }, .wiper_x = 1.06, .wiper_z = 1.01, .fin = true };
 
 static const struct car_spec suv = {
