@@ -60,8 +60,8 @@ static void make_hand(struct shape *s, const struct body *b)
     palm->axes = mat3_from_columns(front, vec3_scale(in, -1), vec3_scale(down, -1));
     static const double finger[4][3] = { { 0.16, 0.42, 0.24 }, { 0.055, 0.48, 0.26 }, { -0.05, 0.45, 0.24 }, { -0.145, 0.35, 0.20 } }; /* place, lengths */
     for (int i = 0; i < 4; i++) {
-        double f = finger[i][0], spread = 1.15 * f, near = 0.48, curl = 0.10 + 0.02 * i;
-        add_chain(s, JOIN, 0.004, (struct vec3[]){ AT(near - 0.06, f + 0.01, 0), AT(near + finger[i][2], spread + 0.01, curl), AT(near + 0.93 * finger[i][1], spread + 0.005, 0.14 + 2.4 * curl) },
+        double f = finger[i][0], spread = f, near = 0.48, curl = 0.10 + 0.02 * i;
+        add_chain(s, JOIN, 0.004, (struct vec3[]){ AT(near - 0.06, f + 0.01, 0), AT(near + finger[i][2], spread + 0.01, curl), AT(near + 0.93 * finger[i][1], 0.75 * spread + 0.005, 0.14 + 2.4 * curl) },
                   (double[]){ 0.052 * length, 0.05 * length, 0.038 * length }, 3);
     }
     add_chain(s, JOIN, 0.008, (struct vec3[]){ AT(0.08, 0.10, 0.04), AT(0.30, 0.21, 0.16), AT(0.52, 0.21, 0.22) }, (double[]){ 0.08 * length, 0.062 * length, 0.042 * length }, 3);
@@ -138,7 +138,7 @@ static void wear_trousers(struct wardrobe *wardrobe, const struct person *person
     /* Each leg has its own cloth: as wide a gap as the net of cells can tell. */
     double gap_top = b->crotch_z - 0.03 * h, gap_low = b->at[LIMB(0, FOOT)].z - 0.03 * h;
     add_box(s, CUT, 0.010, vec3(0, 0, (gap_top + gap_low) / 2), vec3(0.25, 0.0085, (gap_top - gap_low) / 2), 0.008);
-    double top = b->waist_z + 0.01 * h;
+    double top = b->waist_z + (person->top == OPEN_COAT || person->top == OPEN_JACKET ? -0.05 : 0.01) * h; /* well below the shirt's creases */
     if (person->top == COAT) top = b->sole_m + 0.40 * h; /* the rest is hidden */
     add_half(s, CUT, 0, vec3(0, 0, top), vec3(0, 0, -1));
     s->seed = 11 + person->name[0];
@@ -190,7 +190,7 @@ static bool is_outer(enum top top) { return top == JACKET || top == OPEN_JACKET 
 static void open_front(struct shape *s, const struct body *b, double hem_z)
 {
     double h = b->measures.stature_m, neck = b->neck_z;
-    struct station rows[] = { { 0, 0.050 * h, 0.16 * h, 0.14 * h, 0 }, { 0.75, 0.030 * h, 0.14 * h, 0.10 * h, 0 }, { 1, 0.034 * h, 0.14 * h, 0.07 * h, 0 } };
+    struct station rows[] = { { 0, 0.050 * h, 0.16 * h, 0.14 * h, 0 }, { 0.75, 0.036 * h, 0.14 * h, 0.13 * h, 0 }, { 1, 0.034 * h, 0.14 * h, 0.125 * h, 0 } };
     struct vec3 low = vec3(0.17 * h, 0.01 * h, hem_z - 0.06 * h), high = vec3(0.13 * h, 0, neck + 0.02 * h);
     struct solid *gap = add_tube(s, CUT, 0.008, low, high, vec3(1, 0, 0), rows, 3);
     gap->square = 0.6;

@@ -159,10 +159,11 @@ void wear_head(struct wardrobe *wardrobe, const struct person *person, const str
     make_face(&head->shape, &f, person);
     struct solid *neck = add_solid(&head->shape, &body->neck);
     neck->soft_m = 0.14 * f.unit;
-    /* Down to where any collar hides it. */
+    /* Down to where any neckline hides it, and no farther than a shirt below an open coat lets it. */
+    double low = person->top == OPEN_COAT || person->top == OPEN_JACKET ? 0.045 : 0.075;
     struct solid *chest = add_solid(&head->shape, &body->trunk);
     chest->soft_m = 0.04;
-    add_half(&head->shape, CUT, 0, vec3(0, 0, body->neck_z - 0.075 * body->measures.stature_m), vec3(0, 0, 1));
+    add_half(&head->shape, CUT, 0, vec3(0, 0, body->neck_z - low * body->measures.stature_m), vec3(0, 0, 1));
     struct garment *on_top = add_garment(wardrobe, HAIR_PIECE, 1.3 * cell);
     switch (person->hair) {
     case BALD: wardrobe->count--; break;
