@@ -336,7 +336,7 @@ void vehicle_add_driver(struct vehicle *vehicle, const struct car_spec *spec, en
         seat.wrist[side] = vec3(x + 0.33, y + out * 0.19, z + 0.43);
         seat.ankle[side] = vec3(x + 0.74, y + out * 0.12, z - 0.10);
     }
-    crew_seat(&vehicle->driver, vehicle->crew, DRIVER, &seat, level != NEAR);
+    crew_seat(&vehicle->driver, vehicle->crew, spec->driver, &seat, level != NEAR);
 }
 
 void make_car(struct vehicle *vehicle, const struct vehicle_spec *spec, enum level level)

@@ -31,6 +31,7 @@ struct car_spec {
     double skirt_z, cladding;           /* below: plastic; around the wheels, that wide */
     double bed[4];                      /* a load bed: front and rear end, half width, height of its floor */
     double seat_x[SEATS], seat_z;       /* of rows of seats, front to rear */
+    enum occupant driver;
     double cabin[3];                    /* front and rear end, floor */
     struct vec3 mirror;                 /* middle of the left one */
     struct vec3 mirror_half;

@@ -60,7 +60,7 @@ static const struct car_spec hatchback = {
                ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.03, 0.63, 0.43, 0.685, 0.44, 0.02), ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.05, 0.25, 0.62, 0.44, 0.50, 0.05),
                ACROSS(FILL, MARK_REAR, TRIM_COAT, 0, 0.1, 0.75, 0.37, 0.60, 0.06), BONNET(1.93, 0.95, 0.77), LID(0.66, 1.46, 0.66), BUMPER(1.67, 0.38, 1.76, 0.64),
                BUMPER(-1.76, 0.38, -1.86, 0.78) },
-    .skirt_z = 0.20, .seat_x = { -0.08, -0.92 }, .seat_z = 0.44, .cabin = { 1.08, -2.4, 0.62 },
+    .skirt_z = 0.20, .driver = WOMAN_DRIVER, .seat_x = { -0.08, -0.92 }, .seat_z = 0.44, .cabin = { 1.08, -2.4, 0.62 },
     .mirror = { 0.56, 0.955, 1.00 }, .mirror_half = { 0.075, 0.105, 0.072 }, .badge_z = { 0.735, 0.88 }, .plate_z = { 0.50, 0.60 }, .wiper_x = 0.95, .wiper_z = 1.03, .fin = false };
 
 static const struct car_spec estate = {
@@ -102,7 +102,7 @@ static const struct car_spec suv = {
                ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.035, 0.66, 0.40, 0.87, 0.43, 0.05), ACROSS(SINK, MARK_FRONT, TRIM_COAT, 0.04, 0.33, 0.66, 0.52, 0.56, 0.05),
                ACROSS(FILL, MARK_REAR, TRIM_COAT, 0, 0.1, 0.95, 0.50, 0.80, 0.06), BONNET(2.12, 1.04, 0.81), LID(0.64, 1.65, 0.70), BUMPER(1.75, 0.46, 1.86, 0.80),
                BUMPER(-1.75, 0.46, -1.97, 0.95) },
-    .skirt_z = 0.36, .cladding = 0.055, .seat_x = { 0.05, -0.80 }, .seat_z = 0.66, .cabin = { 1.16, -2.6, 0.78 }, .rails = { 0.05, -1.70, 0.62 },
+    .skirt_z = 0.36, .cladding = 0.055, .driver = WOMAN_DRIVER, .seat_x = { 0.05, -0.80 }, .seat_z = 0.66, .cabin = { 1.16, -2.6, 0.78 }, .rails = { 0.05, -1.70, 0.62 },
     .mirror = { 0.66, 0.99, 1.15 }, .mirror_half = { 0.08, 0.11, 0.09 }, .badge_z = { 0.775, 1.04 }, .plate_z = { 0.58, 0.77 }, .wiper_x = 1.03, .wiper_z = 1.165, .fin = true };
 
 static const struct car_spec minivan = {
@@ -124,7 +124,7 @@ static const struct car_spec minivan = {
                { FILL, MARK_SIDE, TRIM_COAT, 0, { { -1.25, 0.965, 0.004 }, { -2.20, 0.985, 0.004 }, { -2.20, 1.010, 0.004 }, { -1.25, 0.990, 0.004 }, END }, false },
                ACROSS(FILL, MARK_REAR, TRIM_COAT, 0, 0.1, 0.85, 0.37, 0.70, 0.06), BONNET(2.34, 1.52, 0.82), LID(0.62, 1.70, 0.74), BUMPER(1.98, 0.4, 2.10, 0.70),
                BUMPER(-1.84, 0.4, -2.12, 0.88) },
-    .skirt_z = 0.21, .seat_x = { 0.32, -0.60, -1.50 }, .seat_z = 0.58, .cabin = { 1.62, -2.9, 0.70 }, .rails = { 0.2, -1.9, 0.70 },
+    .skirt_z = 0.21, .driver = WOMAN_DRIVER, .seat_x = { 0.32, -0.60, -1.50 }, .seat_z = 0.58, .cabin = { 1.62, -2.9, 0.70 }, .rails = { 0.2, -1.9, 0.70 },
     .mirror = { 1.02, 1.07, 1.07 }, .mirror_half = { 0.08, 0.115, 0.08 }, .badge_z = { 0.715, 1.0 }, .plate_z = { 0.54, 0.70 }, .wiper_x = 1.50, .wiper_z = 1.115, .fin = true };
 
 static const struct car_spec van = {

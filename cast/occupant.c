@@ -7,13 +7,14 @@
 
 static const struct person persons[OCCUPANTS] = {
     [DRIVER] = { .name = "driver", .measures = { MALE, 40, 1.72, 73 }, .hair = SHORT_HAIR, .top = SWEATER, .bottom = TROUSERS, .shoes = LEATHER_SHOES },
+    [WOMAN_DRIVER] = { .name = "woman driver", .measures = { FEMALE, 38, 1.66, 63 }, .hair = BOB_HAIR, .top = JACKET, .bottom = JEANS, .shoes = SNEAKERS },
     [MOTORCYCLIST] = { .name = "motorcyclist", .measures = { MALE, 35, 1.77, 80 }, .hair = FULL_HELMET, .top = JACKET, .bottom = JEANS, .shoes = BOOTS },
     [CYCLIST] = { .name = "cyclist", .measures = { MALE, 30, 1.76, 73 }, .hair = CYCLE_HELMET, .top = SWEATER, .bottom = TROUSERS, .shoes = SNEAKERS }
 };
 static const int coats[PIECE_COUNT] = { [SKIN_PIECE] = SKIN_COAT, [HAIR_PIECE] = HAIR_COAT, [TOP_PIECE] = JACKET_COAT, [UNDER_PIECE] = BLACK_PANEL,
                                         [BOTTOM_PIECE] = TROUSERS_COAT, [SHOES_PIECE] = SHOES_COAT, [CARRIED_PIECE] = TRIM_COAT, [HAT_PIECE] = HELMET_COAT };
 /* Of a driver little more is seen than chest and head. */
-static const size_t triangles[OCCUPANTS][2] = { [DRIVER] = { 4000, 1000 }, [MOTORCYCLIST] = { 9000, 2400 }, [CYCLIST] = { 9000, 2400 } };
+static const size_t triangles[OCCUPANTS][2] = { [DRIVER] = { 4000, 1000 }, [WOMAN_DRIVER] = { 4000, 1000 }, [MOTORCYCLIST] = { 9000, 2400 }, [CYCLIST] = { 9000, 2400 } };
 
 struct dressed { struct body body; struct wardrobe wardrobe; struct hull hull[2]; };
 struct crew { struct dressed *of[OCCUPANTS]; }; /* NULL as long as it is not asked for */

@@ -13,7 +13,7 @@ struct seat {
     double elbows_out, knees_out;      /* 0: below, ahead; 1: as far to the side */
 };
 
-enum occupant { DRIVER, MOTORCYCLIST, CYCLIST, OCCUPANTS };
+enum occupant { DRIVER, WOMAN_DRIVER, MOTORCYCLIST, CYCLIST, OCCUPANTS };
 /* They are dressed when they are first asked for. */
 struct crew;
 struct crew *crew_create(void);
