@@ -4,6 +4,7 @@
 #include "gen/light/panorama.h"
 #include "gen/light/seen.h"
 #include "gen/light/standing.h"
+#include "gen/light/unhidden.h"
 #include "lib/file.h"
 
 #include <math.h>
@@ -27,15 +28,15 @@ static struct vec3 among_entities(const struct frame *f)
     return vec3_add(vec3_scale(sum, 1 / weights), vec3(0, 0, BODY_M));
 }
 
-static struct seen seen_of(const struct frame *f)
+static struct seen seen_of(const struct frame *f, const struct image *unhidden)
 {
     const struct scene *s = f->scene;
-    struct seen seen = { .picture = &f->picture, .camera = f->camera, .world_from_camera = f->shot->world_from_camera };
+    struct seen seen = { .picture = &f->picture, .camera = f->camera, .world_from_camera = f->shot->world_from_camera,
+                         .unhidden = unhidden };
     memcpy(seen.k, f->exposure.k, sizeof seen.k);
     /* A new view has no mist in it yet. */
     if (s->has_mist && f->photograph[0]) seen.visibility_m = s->visibility_m;
     memcpy(seen.haze, s->haze, sizeof seen.haze);
-    if (!f->stage->mesh && f->labels.receiver.data) seen.unhidden = &f->labels.receiver;
     seen_init(&seen);
     return seen;
 }
@@ -124,10 +125,15 @@ bool frame_write_surroundings(struct pass_surroundings *surroundings, struct fra
 {
     struct pass_surroundings out = { .sky_map = "" };
     double color_gain[3] = { 0, 0, 0 };
-    if (!frame_read_picture(f, err)) return false;
-    struct seen seen = seen_of(f);
+    struct image unhidden = { 0 };
+    size_t n = f->scene->occluder_count;
+    if (!frame_read_picture(f, err) ||
+        (n && !unhidden_create(&unhidden, f->occluders, n, f->picture.width_px, f->picture.height_px, err)))
+        return false;
+    struct seen seen = seen_of(f, n ? &unhidden : NULL);
     bool ok = write_ground(&out, color_gain, f, &seen, err) && write_sky(&out, color_gain, f, &seen, err) &&
               write_standing(&out, f, &seen, err);
+    image_release(&unhidden);
     if (ok) *surroundings = out;
     else frame_release_surroundings(&out);
     return ok;

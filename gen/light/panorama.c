@@ -1,18 +1,22 @@
 #include "gen/light/panorama.h"
 
+#include "gen/light/push_pull.h"
 #include "gen/light/sky_image.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { WIDTH = 1024, FINE = 2 };   /* FINE: samples along a side of a pixel that shows something of the picture */
 #define STEP_RAD (0.5 * M_PI / 180)
 #define TOP_SHARE 0.7 /* higher up the sides of a picture show less */
 #define OFF_PLACE_M 0.3
+enum { AZIMUTHS = 64 };
 
 /* The circle on which stands what the picture shows beyond its ground. */
 struct wall {
     bool there;
+    double upright[AZIMUTHS][3];   /* irradiance of an upright surface that faces an azimuth */
     double radius_m, forward_rad;  /* azimuth, from +x towards +y, of the camera's look */
     double left_rad, right_rad;    /* how far to both sides the picture shows it, from the height of a body to near its top */
 };
@@ -27,7 +31,7 @@ static struct vec3 wall_point(const struct panorama_input *in, const struct wall
 static bool shown(const struct panorama_input *in, const struct wall *wall, double aside_rad, double z_m)
 {
     struct vec2 q;
-    return seen_project(in->seen, &q, wall_point(in, wall, aside_rad, z_m)) && seen_trust(in->seen, q) > 0.5;
+    return seen_project(in->seen, &q, wall_point(in, wall, aside_rad, z_m)) && seen_within(in->seen, q) > 0.5;
 }
 
 static double shown_to_side(const struct panorama_input *in, const struct wall *wall, double sign, double top_m)
@@ -48,6 +52,8 @@ static struct wall raise_wall(const struct panorama_input *in)
     wall.left_rad = shown_to_side(in, &wall, 1, top);
     wall.right_rad = shown_to_side(in, &wall, -1, top);
     wall.there = wall.left_rad > 0 && wall.right_rad > 0;
+    for (int i = 0; wall.there && i < AZIMUTHS; i++)
+        light_irradiance(wall.upright[i], in->light, vec3(cos(2 * M_PI * i / AZIMUTHS), sin(2 * M_PI * i / AZIMUTHS), 0));
     return wall;
 }
 
@@ -62,14 +68,30 @@ static double fold(const struct wall *wall, double aside)
     return fmod(whole, 2) == 0 ? wall->left_rad - part * span : part * span - wall->right_rad;
 }
 
-/* Where a direction meets the wall, its height kept. */
-static struct vec3 meet_wall(const struct panorama_input *in, const struct wall *wall, struct vec3 d, bool folded)
+/* Where a direction meets the wall: how far aside, and how high. */
+static void meet_wall(double *aside_rad, double *z_m, const struct panorama_input *in, const struct wall *wall, struct vec3 d)
 {
     struct vec3 eye = in->seen->world_from_camera.translation;
     double level = hypot(d.x, d.y), ux = d.x / level, uy = d.y / level, x = in->from_m.x - eye.x, y = in->from_m.y - eye.y;
     double along = x * ux + y * uy, way = -along + sqrt(along * along - (x * x + y * y) + wall->radius_m * wall->radius_m);
-    double aside = atan2(y + way * uy, x + way * ux) - wall->forward_rad;
-    return wall_point(in, wall, folded ? fold(wall, aside) : aside, in->from_m.z + way * d.z / level);
+    *aside_rad = atan2(y + way * uy, x + way * ux) - wall->forward_rad;
+    *z_m = in->from_m.z + way * d.z / level;
+}
+
+static void upright_irradiance(double rgb[3], const struct wall *wall, double azimuth_rad)
+{
+    double at = azimuth_rad / (2 * M_PI), part = (at - floor(at)) * AZIMUTHS;
+    int i = (int)part % AZIMUTHS;
+    for (int c = 0; c < 3; c++) rgb[c] = wall->upright[i][c] + (part - floor(part)) * (wall->upright[(i + 1) % AZIMUTHS][c] - wall->upright[i][c]);
+}
+
+/* What stands elsewhere on the circle is lit as the side that faces its middle there. */
+static void turned_light(double gain[3], const struct wall *wall, double aside_rad, double shown_aside_rad)
+{
+    double here[3], there[3];
+    upright_irradiance(here, wall, wall->forward_rad + aside_rad + M_PI);
+    upright_irradiance(there, wall, wall->forward_rad + shown_aside_rad + M_PI);
+    for (int c = 0; c < 3; c++) gain[c] = here[c] / fmax(there[c], 1e-6);
 }
 
 /* The light's sky between the middles of its pixels; the ground's half is not mixed in. */
@@ -85,13 +107,23 @@ static void sky_between(double rgb[3], const struct image *sky, struct vec3 d)
                  v * ((1 - u) * (double)image_f32(sky, left, below)[c] + u * (double)image_f32(sky, right, below)[c]);
 }
 
-/* Mix what the picture shows at a pixel position into rgb. Clipped light is at least as bright as the sky behind it. */
-static double mix_picture(double rgb[3], const struct seen *seen, struct vec2 q, const double *sky)
+/* As bright and as blue as half of the sky's own. */
+static bool like_sky(const double shown[3], const double sky[3])
 {
-    double shown[3], trust = seen_trust(seen, q);
+    return shown[1] > 0.5 * sky[1] && shown[2] * shown[2] * sky[0] > shown[0] * shown[0] * sky[2];
+}
+
+/* Mix what the picture shows at a pixel position into rgb. Out: known  0 where something is before it.
+ * sky  NULL: it is below the horizon; clipped light is at least as bright as the sky behind it
+ * gain  of what is not sky; NULL: 1 */
+static double mix_picture(double rgb[3], double *known, const struct seen *seen, struct vec2 q, const double *sky, const double *gain)
+{
+    double shown[3], trust = seen_within(seen, q);
     if (trust <= 0) return 0;
-    bool clipped = seen_radiance(seen, shown, q);
+    if (seen_hidden(seen, q)) *known = 0;
+    bool clipped = seen_radiance(seen, shown, q), turned = gain && !(sky && (clipped || like_sky(shown, sky)));
     for (int c = 0; c < 3; c++) {
+        if (turned) shown[c] *= gain[c];
         if (clipped && sky) shown[c] = fmax(shown[c], sky[c]);
         rgb[c] += trust * (shown[c] - rgb[c]);
     }
@@ -99,7 +131,7 @@ static double mix_picture(double rgb[3], const struct seen *seen, struct vec2 q,
 }
 
 /* What the place shows in a direction. False where it is open. */
-static bool of_place(double rgb[3], const struct panorama_input *in, struct vec3 d)
+static bool of_place(double rgb[3], double *known, const struct panorama_input *in, struct vec3 d)
 {
     struct static_hit hit;
     struct vec2 q;
@@ -112,22 +144,27 @@ static bool of_place(double rgb[3], const struct panorama_input *in, struct vec3
     if (!seen_project(in->seen, &q, p)) return true;
     struct vec3 to_eye = vec3_sub(eye, p);
     double range = vec3_norm(to_eye);
-    if (!static_mesh_blocks(in->place, p, vec3_scale(to_eye, 1 / range), OFF_PLACE_M, range)) mix_picture(rgb, in->seen, q, NULL);
+    if (!static_mesh_blocks(in->place, p, vec3_scale(to_eye, 1 / range), OFF_PLACE_M, range)) mix_picture(rgb, known, in->seen, q, NULL, NULL);
     return true;
 }
 
-/* Out: rgb  radiance. Returns whether it is other than the light's sky. */
-static bool look(double rgb[3], const struct panorama_input *in, const struct wall *wall, struct vec3 d)
+/* Out: rgb  radiance; known  0: something hides it. Returns whether it is other than the light's sky. */
+static bool look(double rgb[3], double *known, const struct panorama_input *in, const struct wall *wall, struct vec3 d)
 {
     struct vec2 q;
-    if (in->place && of_place(rgb, in, d)) return true;
+    double aside, z, gain[3];
+    *known = 1;
+    if (in->place && of_place(rgb, known, in, d)) return true;
     sky_between(rgb, &in->light->sky, d);
     if (!wall->there || hypot(d.x, d.y) < 0.1) return false;
-    if (!seen_project(in->seen, &q, meet_wall(in, wall, d, !in->place))) return false;
+    meet_wall(&aside, &z, in, wall, d);
+    double shown_aside = in->place ? aside : fold(wall, aside);
+    if (!seen_project(in->seen, &q, wall_point(in, wall, shown_aside, z))) return false;
     /* What a place shows in the picture stands where it stands. */
     if (in->place && isfinite((double)*image_f32(in->place_depth, (int)q.x, (int)q.y))) return false;
     double sky[3] = { rgb[0], rgb[1], rgb[2] };
-    return mix_picture(rgb, in->seen, q, sky) > 0;
+    turned_light(gain, wall, aside, shown_aside);
+    return mix_picture(rgb, known, in->seen, q, z > in->seen->world_from_camera.translation.z ? sky : NULL, gain) > 0;
 }
 
 static struct vec3 direction(const struct image *image, double x, double y)
@@ -144,19 +181,33 @@ static float rounded(double value)
     return (float)ldexp(round(ldexp(digits, 11)), exponent - 11);
 }
 
-static void paint(struct image *image, const struct panorama_input *in, const struct wall *wall)
+/* The mean over a pixel, and how much of it is known. */
+static void paint_pixel(float rgbw[4], const struct image *image, const struct panorama_input *in, const struct wall *wall, int x, int y)
 {
-    for (int y = 0; y < image->height_px / 2; y++)
-        for (int x = 0; x < image->width_px; x++) {
-            double rgb[3], sum[3] = { 0, 0, 0 };
-            int n = look(rgb, in, wall, direction(image, x + 0.5, y + 0.5)) ? FINE : 1;
-            for (int j = 0; j < n; j++)
-                for (int i = 0; i < n; i++) {
-                    if (n > 1) look(rgb, in, wall, direction(image, x + (i + 0.5) / n, y + (j + 0.5) / n));
-                    for (int c = 0; c < 3; c++) sum[c] += rgb[c] / (n * n);
-                }
-            for (int c = 0; c < 3; c++) image_f32(image, x, y)[c] = rounded(sum[c]);
+    double rgb[3], known;
+    int n = look(rgb, &known, in, wall, direction(image, x + 0.5, y + 0.5)) ? FINE : 1;
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++) {
+            if (n > 1) look(rgb, &known, in, wall, direction(image, x + (i + 0.5) / n, y + (j + 0.5) / n));
+            for (int c = 0; c < 3; c++) rgbw[c] += (float)(known * rgb[c] / (n * n));
+            rgbw[3] += (float)(known / (n * n));
         }
+}
+
+/* What something hides is as what is round it. */
+static bool paint(struct image *image, const struct panorama_input *in, const struct wall *wall, struct error *err)
+{
+    int width = image->width_px, height = image->height_px / 2;
+    float (*rgbw)[4] = calloc((size_t)width * (size_t)height, sizeof *rgbw);
+    if (!rgbw) return error_set(err, ERR_MEMORY, "no memory for what stands round the entities");
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) paint_pixel(rgbw[y * width + x], image, in, wall, x, y);
+    bool ok = !in->seen->unhidden || push_pull(rgbw, width, height, err);
+    for (int y = 0; ok && y < height; y++)
+        for (int x = 0; x < width; x++)
+            for (int c = 0; c < 3; c++) image_f32(image, x, y)[c] = rounded((double)rgbw[y * width + x][c]);
+    free(rgbw);
+    return ok;
 }
 
 /* Below the horizon is the light's own ground; above, the means of squares of the large image. */
@@ -181,12 +232,11 @@ bool panorama_create(struct panorama *panorama, const struct panorama_input *in,
     int scale = sky->width_px < WIDTH ? WIDTH / sky->width_px : 1;
     struct wall wall = raise_wall(in);
     bool ok = image_init(&out.mirrored, scale * sky->width_px, scale * sky->height_px, 3, PIXEL_F32, err) &&
-              image_init(&out.lighting, sky->width_px, sky->height_px, 3, PIXEL_F32, err);
+              image_init(&out.lighting, sky->width_px, sky->height_px, 3, PIXEL_F32, err) && paint(&out.mirrored, in, &wall, err);
     if (!ok) {
         panorama_release(&out);
         return false;
     }
-    paint(&out.mirrored, in, &wall);
     reduce(&out.lighting, &out.mirrored, sky);
     const float *ground = image_f32(sky, 0, sky->height_px - 1);
     for (int y = out.mirrored.height_px / 2; y < out.mirrored.height_px; y++)

@@ -30,12 +30,22 @@ double seen_ground_reach(const struct seen *seen, double height_m)
     return sqrt(PIXEL_OF_GROUND_M * fmax(height_m, 1) / seen->pixel_rad);
 }
 
-double seen_trust(const struct seen *seen, struct vec2 q)
+double seen_within(const struct seen *seen, struct vec2 q)
 {
     double width = seen->camera->width_px, height = seen->camera->height_px;
     double inside = fmin(fmin(q.x, width - q.x), fmin(q.y, height - q.y)) / (EDGE_SHARE * width);
-    double trust = inside <= 0 ? 0 : inside >= 1 ? 1 : inside * inside * (3 - 2 * inside);
-    return seen->unhidden && trust > 0 ? trust * *image_u8(seen->unhidden, (int)q.x, (int)q.y) / 255 : trust;
+    return inside <= 0 ? 0 : inside >= 1 ? 1 : inside * inside * (3 - 2 * inside);
+}
+
+bool seen_hidden(const struct seen *seen, struct vec2 q)
+{
+    return seen->unhidden && !*image_u8(seen->unhidden, (int)q.x, (int)q.y);
+}
+
+double seen_trust(const struct seen *seen, struct vec2 q)
+{
+    double trust = seen_within(seen, q);
+    return trust > 0 && seen_hidden(seen, q) ? 0 : trust;
 }
 
 bool seen_radiance(const struct seen *seen, double rgb[3], struct vec2 q)

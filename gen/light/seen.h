@@ -14,7 +14,7 @@ struct seen {
     struct pose world_from_camera;
     double k[3];                       /* the exposure */
     double visibility_m, haze[3];      /* mist in the picture, haze in its linear values; visibility 0: none */
-    const struct image *unhidden;      /* U8, 1 channel: 255 x share of a pixel that nothing stands before; NULL: all */
+    const struct image *unhidden;      /* U8, 1 channel: 0 where something stands before it (unhidden.h); NULL: nowhere */
     struct pose camera_from_world;     /* made by seen_init, as what follows */
     double linear[256], pixel_rad;     /* pixel_rad: between neighbouring pixels, where the lens looks */
 };
@@ -29,8 +29,11 @@ bool seen_project(const struct seen *seen, struct vec2 *q_px, struct vec3 p_m);
  * shorter than half a metre. It depends on the camera alone, so that nothing changes from frame to frame. */
 double seen_ground_reach(const struct seen *seen, double height_m);
 
-/* How much of what is at a pixel position is to be believed: 0 at the picture's edges and where something is
- * hidden, 1 a fiftieth of the picture's width inside. */
+/* How much of what is at a pixel position is to be believed: 0 at the picture's edges, 1 a fiftieth of the picture's
+ * width inside. */
+double seen_within(const struct seen *seen, struct vec2 q_px);
+bool seen_hidden(const struct seen *seen, struct vec2 q_px);
+/* Both: 0 where something is hidden. */
 double seen_trust(const struct seen *seen, struct vec2 q_px);
 
 /* The radiance at a pixel position, between the middles of pixels linearly, through whatever air there is.
