@@ -2,6 +2,7 @@
 #include "gen/light/panorama.h"
 
 #include "gen/light/sky_image.h"
+#include "gen/light/unhidden.h"
 #include "tests/gen/place.h"
 #include "tests/gen/view_above.h"
 #include "tests/tap.h"
@@ -49,7 +50,13 @@ static void over_a_plane(const struct light *light)
     near_radiance(&p.mirrored, 90, up, 0.2, 0.4, 0.8, "the sign is where it stands: 14.5 m from here, 8 m higher");
     near_radiance(&p.mirrored, 90, degrees(atan2(6.3, 14.495)), 0.2, 0.2, 0.2, "below it is what the picture shows below it");
     near_radiance(&p.mirrored, 90 + degrees(atan2(1.6, 14.495)), up, 0.2, 0.2, 0.2, "and beside it what it shows there");
-    near_radiance(&p.mirrored, 270, 3, 0.2, 0.2, 0.2, "behind the camera it goes on");
+    /* A grey wall that shows its shaded side ahead is sunlit behind the camera, or the other way round. */
+    double ahead[3], behind[3];
+    light_irradiance(ahead, light, vec3(0, -1, 0));
+    light_irradiance(behind, light, vec3(0, 1, 0));
+    near_radiance(&p.mirrored, 270, 3, 0.2 * behind[0] / ahead[0], 0.2 * behind[1] / ahead[1], 0.2 * behind[2] / ahead[2],
+                  "behind the camera it goes on, lit as the side that is seen there");
+    OK(fabs(behind[0] / ahead[0] - 1) > 0.3, "which is lit otherwise (%.2f)", behind[0] / ahead[0]);
     /* A picture dark to one side and bright to the other: no neighbours round the circle differ as much. */
     double step = 0;
     for (int x = 0; x < WIDTH; x++) fill_px(&picture, x, 0, x + 1, HEIGHT, 0.1 + 0.8 * x / WIDTH, 0.2, 0.2);
@@ -61,6 +68,20 @@ static void over_a_plane(const struct light *light)
         OK(step < 0.06, "goes round without a seam (%.3f)", step);
         panorama_release(&slope);
     }
+    /* A post in the middle of the picture, as far up as it goes. */
+    struct image unhidden = { 0 };
+    struct panorama post;
+    fill_px(&picture, 0, 0, WIDTH, HEIGHT, 0.1, 0.1, 0.1);
+    fill_px(&picture, 195, 0, 205, HEIGHT, 0.8, 0.1, 0.1);
+    struct occluder outline = { .polygon_px = (struct vec2[]){ { 195, 0 }, { 205, 0 }, { 205, HEIGHT }, { 195, HEIGHT } }, .polygon_count = 4 };
+    seen.unhidden = &unhidden;
+    if (OK(unhidden_create(&unhidden, &outline, 1, WIDTH, HEIGHT, &err) && panorama_create(&post, &in, &err), "with a post in the middle")) {
+        near_radiance(&post.mirrored, 90 + degrees(atan2(1.6, 14.495)), up, 0.2, 0.2, 0.2, "what is beside it is there");
+        near_radiance(&post.mirrored, 90, degrees(atan2(2, 14.495)), 0.2, 0.2, 0.2, "and so it is instead of the post");
+        panorama_release(&post);
+        image_release(&unhidden);
+    }
+    seen.unhidden = NULL;
     double sky[3], model[3];
     radiance_at(sky, &p.mirrored, 30, 75);
     light_sky_radiance(model, light, vec3(cos(M_PI / 6) * cos(75 * M_PI / 180), sin(M_PI / 6) * cos(75 * M_PI / 180), sin(75 * M_PI / 180)));
