@@ -8,6 +8,7 @@
 #include "post/optics.h"
 #include "post/output.h"
 #include "post/semantic.h"
+#include "post/softness.h"
 #include "post/transfer.h"
 #include "post/window.h"
 
@@ -82,6 +83,13 @@ static bool find_hand(struct hand *hand, struct frame_input *f, struct error *er
     return ok;
 }
 
+/* What hides is in the photograph, and as soft as all of it. */
+static bool soften_hiders(struct frame_input *f, const struct hand *hand, struct error *err)
+{
+    return !f->manifest.has_shares || hand->hider_px <= 0 ||
+           (softness_share(&f->visible, hand->hider_px, err) && softness_share(&f->receiver, hand->hider_px, err));
+}
+
 /* The lens darkens before it blurs; the sensor's highlights come after. */
 static bool through_lens(struct frame_input *f, const struct hand *hand, const struct image *linear, struct error *err)
 {
@@ -89,7 +97,7 @@ static bool through_lens(struct frame_input *f, const struct hand *hand, const s
     struct image *object = &f->layers[OBJECT];
     if (hand->fall_off > 0)
         vignette_shade(object, hand->fall_off, m->exposure_at_px, m->view.window_px, m->width_px, m->height_px);
-    if (!through_optics(f, hand, linear, err)) return false;
+    if (!through_optics(f, hand, linear, err) || !soften_hiders(f, hand, err)) return false;
     if (hand->knee < 1) highlights_keep(object, hand->knee, m->exposure);
     return true;
 }

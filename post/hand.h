@@ -18,6 +18,7 @@ struct hand {
     /* what is done */
     double softness_px;
     double too_soft_px2;            /* variance that the layers as rendered have too much */
+    double hider_px;                /* softness of what stands before the layers, besides the area of a pixel */
     double sharpening;
     bool has_grain;
     struct grain grain;

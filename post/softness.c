@@ -71,6 +71,20 @@ bool softness_blur(struct image *object, struct image *light, const struct image
     return blur(object, visible, sampled_px, err) && blur(light, receiver, sampled_px, err);
 }
 
+bool softness_share(struct image *share, double sigma_px, struct error *err)
+{
+    struct image hidden = { 0 }, covered = { 0 };
+    size_t n = (size_t)share->width_px * (size_t)share->height_px;
+    uint8_t *part = share->data;
+    bool ok = image_init(&hidden, share->width_px, share->height_px, 1, PIXEL_F32, err);
+    for (size_t i = 0; ok && i < n; i++) ((float *)hidden.data)[i] = 255 - (float)part[i];
+    ok = ok && morphology_gaussian(&covered, &hidden, for_pixels(sigma_px), err);
+    for (size_t i = 0; ok && i < n; i++) part[i] = (uint8_t)lroundf(255 - ((float *)covered.data)[i]);
+    image_release(&hidden);
+    image_release(&covered);
+    return ok;
+}
+
 /* Along rows, or along columns: three weights that blur by less than nothing. */
 static bool narrow(struct image *layer, int dx, int dy, double variance_px2, struct error *err)
 {

@@ -14,6 +14,10 @@
 bool softness_blur(struct image *object, struct image *light, const struct image *visible, const struct image *receiver,
                    double sigma_px, struct error *err);
 
+/* Blur the edge of what hides a layer: the lens mixed it with what is behind.
+ * In/out: share (U8): 255 where nothing hides. Err: ERR_MEMORY */
+bool softness_share(struct image *share, double sigma_px, struct error *err);
+
 #define SOFTNESS_TAKEN_BACK_MAX_PX2 0.1 /* more would show the steps between few samples */
 
 /* Make both layers narrower by this variance, at most SOFTNESS_TAKEN_BACK_MAX_PX2: what an anti-aliasing of few

@@ -28,8 +28,9 @@ struct transfer_thresholds {
     bool overwrite_below;   /* overwrite below t2, t3 rather than from them upwards */
 };
 
-/* out = B r (1 - a v) + k O v, where r = 1 + g (clamp(S/P) - 1): the ground under a soft
- * edge is shaded before the edge goes over it.
+/* out = B r + (k O - a r B') v, where r = 1 + g (clamp(S/P) - 1): the ground under a soft
+ * edge is shaded before the edge goes over it. B' is B; where v is below 1, what B shows beside: at the
+ * edge of what hides, a pixel's light comes in part from it and in part from behind.
  * Out, here and below: F32, 3 channels, initialized here. Err, here and below: ERR_MEMORY */
 bool transfer_layers(struct image *out, const struct transfer_input *in, struct error *err);
 

@@ -49,6 +49,15 @@ int main(void)
     OK(softness_blur(&object, &light, &hidden, &hidden, 1.5, &err), "of what is half hidden");
     NEAR((double)image_f32(&object, 19, 10)[0], 0.2, 1e-5, "what can be seen is not darkened");
     OK(image_f32(&object, 31, 10)[3] == 0, "and what cannot does not come out");
+    OK(*image_u8(&hidden, 19, 10) == 255 && *image_u8(&hidden, 20, 10) == 0, "the edge of what hides is as it was");
+    OK(softness_share(&hidden, 1, &err), "until it is softened too");
+    /* The normal distribution: 0.5 px beyond the edge, 1.5, 2.5. */
+    static const double beyond[] = { 0.6915, 0.9332, 0.9938 };
+    for (int i = 0; i < 3; i++) {
+        NEAR(*image_u8(&hidden, 19 - i, 10) / 255.0, beyond[i], 0.012, "what is seen %g px before it", i + 0.5);
+        NEAR(*image_u8(&hidden, 20 + i, 10) / 255.0, 1 - beyond[i], 0.012, "and %g px within", i + 0.5);
+    }
+    OK(*image_u8(&hidden, 10, 10) == 255 && *image_u8(&hidden, 25, 10) == 0, "farther off it is as it was");
     image_release(&hidden);
     image_release(&object);
     image_release(&light);

@@ -4,8 +4,35 @@
 
 #define N 10
 
+/* A post of 0.3 over ground of 0.2, its edge in pixel 3, with a car of 0.9 behind it: what a pixel shows of both is known. */
+static void at_a_soft_edge(void)
+{
+    enum { WIDTH = 7 };
+    static const float share[WIDTH] = { 0, 0, 0, 0.4f, 1, 1, 1 };
+    float b[WIDTH * 3], o[WIDTH * 4], none[WIDTH * 4] = { 0 };
+    uint8_t v[WIDTH], g[WIDTH] = { 0 };
+    for (int x = 0; x < WIDTH; x++) {
+        v[x] = (uint8_t)(share[x] * 255);
+        for (int c = 0; c < 3; c++) {
+            b[3 * x + c] = 0.3f * (1 - share[x]) + 0.2f * share[x];
+            o[4 * x + c] = 0.9f;
+        }
+        o[4 * x + 3] = 1;
+    }
+    struct image photograph = { WIDTH, 1, 3, PIXEL_F32, b }, object = { WIDTH, 1, 4, PIXEL_F32, o }, nothing = { WIDTH, 1, 4, PIXEL_F32, none },
+                 visible = { WIDTH, 1, 1, PIXEL_U8, v }, receiver = { WIDTH, 1, 1, PIXEL_U8, g }, out;
+    struct transfer_input in = { &photograph, &object, &nothing, &nothing, &visible, &receiver, { 1, 1, 1 } };
+    struct error err = ERROR_NONE;
+    if (!OK(transfer_layers(&out, &in, &err), "with something that hides, and is soft")) return;
+    NEAR(image_f32(&out, 3, 0)[0], 0.3 * 0.6 + 0.9 * 0.4, 1e-6, "its edge keeps its own light, and gets the entity's for the ground's");
+    OK(image_f32(&out, 2, 0)[0] == 0.3f, "within it stays to the last bit");
+    NEAR(image_f32(&out, 4, 0)[0], 0.9, 1e-6, "beside it the entity is whole");
+    image_release(&out);
+}
+
 int main(void)
 {
+    at_a_soft_edge();
     /*                    same  half  solid edge  no ground  dark  bounce part  hidden  g .4 */
     float b[N * 3] = { 0.4f, 0.4f, 0.4f,  0.4f, 0.4f, 0.4f,  0.7f, 0.7f, 0.7f,  0.8f, 0.8f, 0.8f,  0.6f, 0.6f, 0.6f,
                        0.6f, 0.6f, 0.6f,  0.1f, 0.1f, 0.1f,  0.4f, 0.4f, 0.4f,  0.5f, 0.5f, 0.5f,  0.5f, 0.5f, 0.5f };
