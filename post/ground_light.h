@@ -13,7 +13,9 @@
 bool ground_light_take(struct image *light, const struct image *plane, const struct image *shadow, struct error *err);
 
 /* Make the passes say this instead. Where there is no change, shadow becomes plane.
- * In/out: plane keeps its radiance; where it does not cover a pixel that has light or shade now, it is extended to */
-void ground_light_put(struct image *plane, struct image *shadow, const struct image *light);
+ * In/out: plane keeps its radiance; where it does not cover a pixel that has light or shade now, it is extended to
+ * In:  photograph (F32, 3 channels, linear) over exposure: the radiance of ground that plane does not cover */
+void ground_light_put(struct image *plane, struct image *shadow, const struct image *light, const struct image *photograph,
+                      const double exposure[3]);
 
 #endif

@@ -36,7 +36,7 @@ bool optics_apply(struct image *object, struct image *plane, struct image *shado
               (m->defocus_px <= 0 || defocus_blur(object, &light, in->depth, in->ground, v, g, m->defocus_px, m->focus_m, err)) &&
               (m->softness_px <= 0 || softness_blur(object, &light, v, g, m->softness_px, err)) &&
               (!m->has_mist || fade(object, plane, &light, in, err));
-    if (ok) ground_light_put(plane, shadow, &light);
+    if (ok) ground_light_put(plane, shadow, &light, in->photograph, in->exposure);
     image_release(&light);
     return ok;
 }

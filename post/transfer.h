@@ -34,7 +34,8 @@ struct transfer_thresholds {
  * Out, here and below: F32, 3 channels, initialized here. Err, here and below: ERR_MEMORY */
 bool transfer_layers(struct image *out, const struct transfer_input *in, struct error *err);
 
-/* out = k I_all in the objects' mask, B I_all / I_pl on the rest of the plane, B elsewhere.
+/* out = k I_all in the objects' mask, B I_all / I_pl on the rest of the plane; B elsewhere, and beyond the rendered plane
+ * B / k is I_pl, so that the objects' eroded rim comes out as k O + (1 - a) B.
  * I_all is O over S, I_pl is P. Both masks are eroded; the contour of the objects' mask is
  * blended half and half with its Gaussian blur.
  * Src: Mixed Reality Synthetic Data Generation, III.D, equations 1 and 2 */

@@ -44,6 +44,16 @@ int main(void)
     NEAR(image_f32(&out, 4, 4)[0], 0.4, 1e-6, "and shows the rendered ground through itself");
     image_release(&out);
 
+    /* No plane is rendered: an entity of half a pixel's cover at (4,4), k O + (1 - a) B = 2 * 0.1 + 0.5 * 0.5 */
+    memset(p, 0, sizeof p);
+    memset(s, 0, sizeof s);
+    memset(o, 0, sizeof o);
+    fill(o + 4 * (4 * N + 4), 0.1f, 0.5f);
+    if (!OK(transfer_ratio(&out, &in, &err), "an entity beyond the plane")) return tap_done();
+    NEAR(image_f32(&out, 4, 4)[0], 0.45, 1e-6, "stands before the photograph's ground");
+    OK(image_f32(&out, 5, 4)[0] == 0.5f, "and what is beside it stays to the last bit");
+    image_release(&out);
+
     /* Ground in columns 0..4 under a shadow of one half; with half of the receiver hidden in row 8. */
     uint8_t g[N * N];
     memset(g, 255, sizeof g);
