@@ -1,6 +1,7 @@
 #include "gen/frame_impl.h"
 
 #include "gen/estimate/lit_ground.h"
+#include "gen/light/enclosed.h"
 #include "gen/sunlit.h"
 #include "lib/air.h"
 #include "lib/file.h"
@@ -9,22 +10,37 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Of the ground in the open, as the plane pass renders it. In: at_px where it mirrors, when it is wet */
-static void ground_radiance(double rgb[3], const struct frame *f, struct vec2 at_px)
+/* Over a place, of the ground at these pixels as the place leaves it the sky; else of a plane in the open. */
+static bool ground_irradiance(double rgb[3], const struct frame *f, const struct vec2 *q_px, size_t n, struct error *err)
+{
+    struct vec3 *points_m = calloc(n + 1, sizeof *points_m);
+    size_t known = 0;
+    if (!points_m) return error_set(err, ERR_MEMORY, "no memory for an exposure");
+    for (size_t i = 0; f->stage->mesh && i < n; i++)
+        if (frame_ground_at(&points_m[known], f, q_px[i])) known++;
+    if (known) enclosed_irradiance(rgb, f->context->light, f->stage->mesh, points_m, known);
+    else light_irradiance(rgb, f->context->light, f->scene->ground.normal);
+    free(points_m);
+    return true;
+}
+
+/* Of the ground at pixels (q_px, n) in the sun. In: at_px where it mirrors, when it is wet */
+static bool ground_radiance(double rgb[3], const struct frame *f, const struct vec2 *q_px, size_t n, struct vec2 at_px, struct error *err)
 {
     const struct scene *s = f->scene;
-    light_irradiance(rgb, f->context->light, s->ground.normal);
+    if (!ground_irradiance(rgb, f, q_px, n, err)) return false;
     for (int c = 0; c < 3; c++) rgb[c] *= s->ground_albedo[c];
-    if (s->ground_reflection <= 0 || s->exposure_of_roads) return;
+    if (s->ground_reflection <= 0 || s->exposure_of_roads) return true;
     /* A wet ground mirrors the sky as well. */
     struct error ignored = ERROR_NONE;
     struct vec3 p;
-    if (!ground_from_pixel(&p, &s->ground, f->camera, f->shot->world_from_camera, at_px, &ignored)) return;
+    if (!ground_from_pixel(&p, &s->ground, f->camera, f->shot->world_from_camera, at_px, &ignored)) return true;
     struct vec3 d = vec3_unit(vec3_sub(p, f->shot->world_from_camera.translation));
     double cosine = -vec3_dot(d, s->ground.normal), sky[3];
     double share = s->ground_reflection + (1 - s->ground_reflection) * pow(1 - cosine, 5);
     light_sky_radiance(sky, f->context->light, vec3_add(d, vec3_scale(s->ground.normal, 2 * cosine)));
     for (int c = 0; c < 3; c++) rgb[c] += share * sky[c];
+    return true;
 }
 
 static struct rect patch_px(const struct frame *f)
@@ -70,21 +86,20 @@ static bool fit_to_patch(struct frame *f, struct error *err)
     struct rect patch = patch_px(f);
     struct vec2 middle = { (patch.x0 + patch.x1) / 2.0, (patch.y0 + patch.y1) / 2.0 };
     double radiance[3];
-    ground_radiance(radiance, f, middle);
-    return exposure_fit(&f->exposure, &f->picture, patch, radiance, f->scene->white_balance, err) &&
-           clear(f, &middle, 1, radiance, err);
+    return ground_radiance(radiance, f, &middle, 1, middle, err) &&
+           exposure_fit(&f->exposure, &f->picture, patch, radiance, f->scene->white_balance, err) && clear(f, &middle, 1, radiance, err);
 }
 
 static bool fit_to_roads(struct frame *f, struct error *err)
 {
     double radiance[3];
-    ground_radiance(radiance, f, (struct vec2){ 0, 0 });
     struct vec2 *sample_px = NULL;
     size_t n = 0;
     if (!sunlit_pixels(&sample_px, &n, f->stage, f->context->light, f->camera, f->shot->world_from_camera, err)) return false;
     bool ok = n > 0 || error_set(err, ERR_INPUT, "exposure.roads: frame %s shows no road in full light to be fitted to: give "
                                  "exposure.value, or leave the shot in line %d out", f->name, f->shot->source.line);
-    ok = ok && exposure_fit_samples(&f->exposure, &f->picture, sample_px, n, radiance, f->scene->white_balance, err) &&
+    ok = ok && ground_radiance(radiance, f, sample_px, n, (struct vec2){ 0, 0 }, err) &&
+         exposure_fit_samples(&f->exposure, &f->picture, sample_px, n, radiance, f->scene->white_balance, err) &&
          clear(f, sample_px, n, radiance, err);
     free(sample_px);
     return ok;
@@ -108,8 +123,8 @@ static bool fit_to_ground(struct frame *f, struct error *err)
     ground_view_release(&view);
     if (!ok) return false;
     for (size_t i = 0; i < n; i++) middle = (struct vec2){ middle.x + sample_px[i].x / (double)n, middle.y + sample_px[i].y / (double)n };
-    ground_radiance(radiance, f, middle);
-    ok = exposure_fit_samples(&f->exposure, &f->picture, sample_px, n, radiance, f->scene->white_balance, err) &&
+    ok = ground_radiance(radiance, f, sample_px, n, middle, err) &&
+         exposure_fit_samples(&f->exposure, &f->picture, sample_px, n, radiance, f->scene->white_balance, err) &&
          clear(f, sample_px, n, radiance, err);
     free(sample_px);
     return ok;

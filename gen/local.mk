@@ -21,6 +21,7 @@ gen_libgen_a_SOURCES = \
   %D%/frame_surroundings.c \
   %D%/generator.c %D%/generator.h \
   %D%/light/daylight.c %D%/light/daylight.h \
+  %D%/light/enclosed.c %D%/light/enclosed.h \
   %D%/light/exposure.c %D%/light/exposure.h \
   %D%/light/light.c %D%/light/light.h \
   %D%/light/map_sun.c %D%/light/map_sun.h \

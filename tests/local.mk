@@ -57,6 +57,11 @@ tests_gen_ground_test_SOURCES = %D%/gen/ground.c %D%/tap.h
 nodist_EXTRA_tests_gen_ground_test_SOURCES = dummy.cxx
 tests_gen_ground_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/enclosed.test
+tests_gen_enclosed_test_SOURCES = %D%/gen/enclosed.c %D%/gen/place.h %D%/tap.h
+nodist_EXTRA_tests_gen_enclosed_test_SOURCES = dummy.cxx
+tests_gen_enclosed_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/entity.test
 tests_gen_entity_test_SOURCES = %D%/gen/entity.c %D%/tap.h
 nodist_EXTRA_tests_gen_entity_test_SOURCES = dummy.cxx
