@@ -61,16 +61,15 @@ void shell_quad(struct shell *s, uint32_t a, uint32_t b, uint32_t c, uint32_t d,
 
 void shell_add_solid(struct shell *s, const struct form *solid, struct vec3 low, struct vec3 high, struct vec3 cell, int material)
 {
-    bool whole = low.y < 0;
-    struct net_grid grid = { vec3(low.x - 1.5 * cell.x, whole ? low.y - 1.5 * cell.y : -0.5 * cell.y, low.z - 1.5 * cell.z), cell, { 0 } };
+    struct net_grid grid = { vec3(low.x - 1.5 * cell.x, -0.5 * cell.y, low.z - 1.5 * cell.z), cell, { 0 } };
     grid.n[0] = (int)((high.x - low.x) / cell.x) + 5;
-    grid.n[1] = (int)((high.y - fmin(low.y, 0)) / cell.y) + (whole ? 5 : 4);
+    grid.n[1] = (int)(high.y / cell.y) + 4;
     grid.n[2] = (int)((high.z - low.z) / cell.z) + 5;
     struct surface_net net = surface_net_create(solid, &grid, INFINITY);
     uint32_t first = (uint32_t)s->points;
     for (size_t i = 0; i < net.points; i++) {
         struct vec3 p = net.point[i];
-        bool middle = net.first_layer[i] && !whole; /* the first cells of a half lie about the middle */
+        bool middle = net.first_layer[i]; /* the first cells lie about the middle */
         if (middle) p.y = 0;
         p = form_project(solid, p);
         struct vec3 n = form_normal(solid, p);

@@ -30,8 +30,7 @@ void shell_face(struct shell *shell, uint32_t a, uint32_t b, uint32_t c, int mat
 /* Along the shorter diagonal. */
 void shell_quad(struct shell *shell, uint32_t a, uint32_t b, uint32_t c, uint32_t d, int material);
 
-/* Append a solid's surface, in cells of a size, in a box: its left half, or the whole where the box begins below y = 0. Halves are of
- * solids that are symmetric. */
+/* Append the left half of a symmetric solid's surface, in cells of a size, in a box. */
 void shell_add_solid(struct shell *shell, const struct form *solid, struct vec3 low, struct vec3 high, struct vec3 cell_m, int material);
 
 /* ---- lines on the surface ---- */
