@@ -10,6 +10,7 @@ lib_libstaffage_a_SOURCES = \
   %D%/image.c %D%/image.h %D%/image_io.cpp \
   %D%/json_file.c %D%/json_file.h \
   %D%/json_walk.c %D%/json_walk.h \
+  %D%/luminance.h \
   %D%/opencv.h \
   %D%/photograph.c %D%/photograph.h \
   %D%/place.cpp %D%/place.h \

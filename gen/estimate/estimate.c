@@ -4,6 +4,7 @@
 #include "gen/light/daylight.h"
 #include "gen/light/light.h"
 #include "gen/light/sky_form.h"
+#include "lib/luminance.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -146,19 +147,12 @@ static double pressure_of(const struct scene *s)
 /* The haziest sky is as bright as the sun and more, the clearest hardly a tenth: whose proportion is it? */
 static double turbidity_of(double *beyond, const struct light_estimate *e, const struct scene *s, struct vec3 sun)
 {
-    static const double weight[3] = { 0.2126, 0.7152, 0.0722 };
-    double best = TURBIDITY_LEAST, least = INFINITY, wanted = 0;
-    for (int c = 0; c < 3; c++) wanted += weight[c] * e->sky_share[c];
+    double best = TURBIDITY_LEAST, least = INFINITY, wanted = luminance_of(e->sky_share);
     for (double t = TURBIDITY_LEAST; t <= CLEAR_TURBIDITY_MAX; t += 0.1) {
         struct atmosphere_light air = { t, pressure_of(s) };
         struct daylight d;
         daylight_of_clear_sky(&d, asin(fmin(1, sun.z)), air);
-        double sky = 0, direct = 0;
-        for (int c = 0; c < 3; c++) {
-            sky += weight[c] * d.sky[c];
-            direct += weight[c] * d.sun[c] * sun.z;
-        }
-        double off = wanted - sky / (sky + direct);
+        double sky = luminance_of(d.sky), direct = luminance_of(d.sun) * sun.z, off = wanted - sky / (sky + direct);
         if (fabs(off) < least) {
             least = fabs(off);
             *beyond = off;

@@ -1,6 +1,7 @@
 #include "gen/estimate/estimate.h"
 
 #include "lib/file.h"
+#include "lib/luminance.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -21,12 +22,7 @@ static char *triple_text(const double v[3], const double sigma[3])
 static char *shade_text(const struct light_estimate *e)
 {
     const struct shade *s = &e->shade;
-    static const double weight[3] = { 0.2126, 0.7152, 0.0722 };
-    double sky = 0, sigma = 0;
-    for (int c = 0; c < 3; c++) {
-        sky += weight[c] * e->sky_share[c];
-        sigma += weight[c] * e->sky_share_sigma[c]; /* the channels' errors go together */
-    }
+    double sky = luminance_of(e->sky_share), sigma = luminance_of(e->sky_share_sigma); /* the channels' errors go together */
     char *from = e->from == SHADE_FROM_MARKS ? string_format("%zu marked pair%s", s->edges, s->edges == 1 ? "" : "s")
                                              : string_format("%zu pixels of shadow edges in %zu places%s", s->edges, s->places,
                                                              e->from == SHADE_FROM_MESH ? ", which the mesh casts" : "");

@@ -1,5 +1,7 @@
 #include "gen/estimate/shadow_edges.h"
 
+#include "lib/luminance.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -13,10 +15,7 @@ static const int side_px[SCALES][2] = { { 5, FAR_PX }, { 3, 5 } };
 
 static double luminance_step(const float *to, const float *from)
 {
-    static const double weight[3] = { 0.2126, 0.7152, 0.0722 };
-    double sum = 0;
-    for (int c = 0; c < 3; c++) sum += weight[c] * ((double)to[c] - (double)from[c]);
-    return sum;
+    return luminance_of_f32(to) - luminance_of_f32(from);
 }
 
 static double unevenness(const float *a, const float *b)

@@ -1,18 +1,12 @@
 #include "gen/light/exposure.h"
 
+#include "lib/luminance.h"
+
 #include <stdlib.h>
 
 #define SATURATED_SHARE_MAX 0.01
 #define SPREAD_MAX 4.0
 #define SAMPLES_MIN 20
-
-/* Rec.709 */
-static const double luminance_weight[3] = { 0.2126, 0.7152, 0.0722 };
-
-static double luminance(const double v[3])
-{
-    return luminance_weight[0] * v[0] + luminance_weight[1] * v[1] + luminance_weight[2] * v[2];
-}
 
 static int compare(const void *a, const void *b)
 {
@@ -60,7 +54,7 @@ static void values_set(struct values *v, size_t i, const uint8_t *px)
 {
     double rgb[3] = { v->of_level[px[0]], v->of_level[px[1]], v->of_level[px[2]] };
     for (size_t c = 0; c < 3; c++) v->value[c * v->n + i] = rgb[c];
-    v->value[3 * v->n + i] = luminance(rgb);
+    v->value[3 * v->n + i] = luminance_of(rgb);
 }
 
 /* The medians of the first `used` pixels, and k from them; the values are sorted after. */
@@ -71,7 +65,7 @@ static struct exposure fit(struct values *v, size_t used, const double ground_ra
     double bright = median(v->value + 3 * v->n, used);
     for (size_t c = 0; c < 3; c++) {
         e.median[c] = median(v->value + c * v->n, used);
-        e.k[c] = white_balance ? e.median[c] / ground_radiance[c] : bright / luminance(ground_radiance);
+        e.k[c] = white_balance ? e.median[c] / ground_radiance[c] : bright / luminance_of(ground_radiance);
     }
     return e;
 }
@@ -157,6 +151,6 @@ bool exposure_clear(struct exposure *exposure, double transmission, const double
                              "weather.haze is too bright, or weather.visibility_m too short");
     }
     for (int c = 0; c < 3; c++)
-        exposure->k[c] = white_balance ? own[c] / ground_radiance[c] : luminance(own) / luminance(ground_radiance);
+        exposure->k[c] = white_balance ? own[c] / ground_radiance[c] : luminance_of(own) / luminance_of(ground_radiance);
     return true;
 }

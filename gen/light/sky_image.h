@@ -4,6 +4,7 @@
 #define STAFFAGE_GEN_SKY_IMAGE_H
 
 #include "lib/image.h"
+#include "lib/luminance.h"
 #include "lib/vec.h"
 
 #include <math.h>
@@ -29,8 +30,6 @@ static inline double sky_level_weight(const struct image *sky, int row)
     double top = sin(sky_row_top(sky, row)), bottom = sin(sky_row_top(sky, row + 1));
     return (top * top - bottom * bottom) / sky->width_px;
 }
-
-static inline double luminance_of(const double c[3]) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; }
 
 static inline double sky_pixel_luminance(const struct image *sky, int column, int row)
 {

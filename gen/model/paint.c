@@ -1,5 +1,6 @@
 #include "gen/model/paint.h"
 
+#include "lib/luminance.h"
 #include "lib/vec.h"
 
 #include <math.h>
@@ -16,16 +17,11 @@ static double lab_curve(double t)
     return t > 216.0 / 24389 ? cbrt(t) : (24389.0 / 27 * t + 16) / 116;
 }
 
-static double luminance(const float rgb[3])
-{
-    return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
-}
-
 static struct lab lab_from_linear(const float rgb[3])
 {
     double r = (double)rgb[0], g = (double)rgb[1], b = (double)rgb[2];
     double x = lab_curve((0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505);
-    double y = lab_curve(luminance(rgb));
+    double y = lab_curve(luminance_of_f32(rgb));
     double z = lab_curve((0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089);
     return (struct lab){ 116 * y - 16, 500 * (x - y), 200 * (y - z) };
 }
@@ -146,7 +142,7 @@ static double luminance_from_l(double l)
  * is glass or a tyre, nor many times as light. */
 static double body_share(const float rgb[3], struct lab body, double body_luminance)
 {
-    double ratio = luminance(rgb) / body_luminance, light = ramp(0.12, 0.3, ratio) * ramp(8, 4, ratio);
+    double ratio = luminance_of_f32(rgb) / body_luminance, light = ramp(0.12, 0.3, ratio) * ramp(8, 4, ratio);
     if (light == 0) return 0;
     struct lab c = lab_from_linear(rgb);
     double shade = c.l > 1 && body.l > 1 ? fmin(c.l / body.l, 1) : 1; /* chroma fades with light */
@@ -167,7 +163,7 @@ static double lit_luminance(const float *linear, const float *share, const struc
 {
     double total = 0, sum = 0;
     for (size_t i = 0; i < count; i++) {
-        levels[i] = (struct level){ luminance(linear + 3 * samples[i].pixel), samples[i].area * (double)share[samples[i].pixel] };
+        levels[i] = (struct level){ luminance_of_f32(linear + 3 * samples[i].pixel), samples[i].area * (double)share[samples[i].pixel] };
         total += levels[i].area;
     }
     qsort(levels, count, sizeof *levels, by_luminance);
@@ -200,7 +196,7 @@ bool paint_body(struct image *linear, const struct image *texture, const struct 
     double lit = lit_luminance(rgb, share, samples, count, levels);
     double lightest = fmax(paint[0], fmax(paint[1], paint[2]));
     for (size_t i = 0; lit > 0 && i < pixels; i++) {
-        double s = fmin(luminance(rgb + 3 * i) / lit, lightest > 0 ? 1 / lightest : 1);
+        double s = fmin(luminance_of_f32(rgb + 3 * i) / lit, lightest > 0 ? 1 / lightest : 1);
         for (int c = 0; c < 3; c++) rgb[3 * i + (size_t)c] += share[i] * ((float)(paint[c] * s) - rgb[3 * i + (size_t)c]);
     }
 out:

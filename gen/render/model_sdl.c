@@ -3,6 +3,7 @@
 #include "gen/model/texture.h"
 #include "gen/render/sdl.h"
 #include "lib/file.h"
+#include "lib/luminance.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -78,8 +79,7 @@ static void write_finish(struct sdl *sdl, const struct material *m)
         return;
     }
     /* Emission is relative to the pigment in POV-Ray: its luminance is what carries over. */
-    double emission = 0.2126 * m->emissive[0] + 0.7152 * m->emissive[1] + 0.0722 * m->emissive[2];
-    sdl_call(sdl, "Finish_Surface", (double[]){ m->metallic, m->roughness, m->clearcoat, f0, emission }, 5);
+    sdl_call(sdl, "Finish_Surface", (double[]){ m->metallic, m->roughness, m->clearcoat, f0, luminance_of(m->emissive) }, 5);
 }
 
 static void write_mesh(struct sdl *sdl, const struct mesh *mesh, bool textured)
