@@ -68,6 +68,7 @@ gen_libgen_a_SOURCES = \
   %D%/motion/walk.c \
   %D%/render/camera_sdl.c %D%/render/camera_sdl.h \
   %D%/render/makefile.c %D%/render/makefile.h \
+  %D%/render/mesh_sdl.c %D%/render/mesh_sdl.h \
   %D%/render/model_sdl.c %D%/render/model_sdl.h \
   %D%/render/passes.c %D%/render/passes.h \
   %D%/render/place_sdl.c %D%/render/place_sdl.h \

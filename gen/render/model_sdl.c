@@ -1,6 +1,7 @@
 #include "gen/render/model_sdl.h"
 
 #include "gen/model/texture.h"
+#include "gen/render/mesh_sdl.h"
 #include "gen/render/sdl.h"
 #include "lib/file.h"
 #include "lib/luminance.h"
@@ -108,15 +109,7 @@ static void write_mesh(struct sdl *sdl, const struct mesh *mesh, bool textured)
         }
         sdl_end(sdl);
     }
-    sdl_begin(sdl, "face_indices");
-    sdl_number(sdl, (double)mesh->triangles);
-    for (size_t i = 0; i < mesh->triangles; i++) {
-        const uint32_t *t = mesh->triangle[i];
-        sdl_comma(sdl);
-        sdl_vector(sdl, vec3(t[0], t[1], t[2]));
-        if (i % 8 == 7) sdl_newline(sdl);
-    }
-    sdl_end(sdl);
+    mesh_sdl_faces(sdl, mesh->triangle, mesh->triangles);
 }
 
 void include_set_release(struct include_set *set)

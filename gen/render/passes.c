@@ -1,6 +1,7 @@
 #include "gen/render/passes.h"
 
 #include "gen/render/camera_sdl.h"
+#include "gen/render/mesh_sdl.h"
 #include "gen/render/sdl.h"
 #include "gen/render/sky_uv.h"
 #include "lib/file.h"
@@ -90,12 +91,8 @@ static void write_receivers(struct sdl *sdl, const struct passes *p, bool entiti
     sdl_declare_color(sdl, "Sky_Most", scale.most);
     sdl_declare_color(sdl, "Sky_Tint", scale.tint);
     sdl_declare(sdl, "Receivers");
-    if (!g->triangles) { /* a mesh must have a face: this one is nowhere */
-        sdl_begin(sdl, "sphere");
-        sdl_vector(sdl, vec3(0, 0, -1e6));
-        sdl_comma(sdl);
-        sdl_number(sdl, 1e-3);
-        sdl_end(sdl);
+    if (!g->triangles) {
+        mesh_sdl_nowhere(sdl);
         return;
     }
     sdl_begin(sdl, "mesh2");
@@ -110,15 +107,7 @@ static void write_receivers(struct sdl *sdl, const struct passes *p, bool entiti
         if (i % 8 == 7) sdl_newline(sdl);
     }
     sdl_end(sdl);
-    sdl_begin(sdl, "face_indices");
-    sdl_number(sdl, (double)g->triangles);
-    for (size_t i = 0; i < g->triangles; i++) {
-        const uint32_t *t = g->triangle[i];
-        sdl_comma(sdl);
-        sdl_vector(sdl, vec3(t[0], t[1], t[2]));
-        if (i % 8 == 7) sdl_newline(sdl);
-    }
-    sdl_end(sdl);
+    mesh_sdl_faces(sdl, g->triangle, g->triangles);
     sdl_end(sdl);
 }
 

@@ -1,5 +1,6 @@
 #include "gen/render/place_sdl.h"
 
+#include "gen/render/mesh_sdl.h"
 #include "gen/render/sdl.h"
 
 #include <stdlib.h>
@@ -25,26 +26,14 @@ static void write_vertices(struct sdl *sdl, const char *name, const struct stati
 static void write_cut(struct sdl *sdl, const char *name, const struct static_cut *cut, const struct vec3 *normal)
 {
     sdl_declare(sdl, name);
-    if (!cut->triangles) { /* a mesh must have a face: this one is nowhere */
-        sdl_begin(sdl, "sphere");
-        sdl_vector(sdl, vec3(0, 0, -1e6));
-        sdl_comma(sdl);
-        sdl_number(sdl, 1e-3);
-        sdl_end(sdl);
+    if (!cut->triangles) {
+        mesh_sdl_nowhere(sdl);
         return;
     }
     sdl_begin(sdl, "mesh2");
     write_vertices(sdl, "vertex_vectors", cut, NULL);
     if (normal) write_vertices(sdl, "normal_vectors", cut, normal);
-    sdl_begin(sdl, "face_indices");
-    sdl_number(sdl, (double)cut->triangles);
-    for (size_t i = 0; i < cut->triangles; i++) {
-        const uint32_t *t = cut->triangle[i];
-        sdl_comma(sdl);
-        sdl_vector(sdl, vec3(t[0], t[1], t[2]));
-        if (i % 8 == 7) sdl_newline(sdl);
-    }
-    sdl_end(sdl);
+    mesh_sdl_faces(sdl, cut->triangle, cut->triangles);
     sdl_end(sdl);
 }
 
