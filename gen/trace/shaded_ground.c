@@ -15,8 +15,18 @@
 #define STEP 0.04
 #define STEP_OF_SHARE 0.12
 
+/* Doubling: one more at a time would copy all each time. */
+static size_t room_for(size_t n)
+{
+    size_t room = 64;
+    while (room < n) room *= 2;
+    return room;
+}
+
 static bool grow_vertices(struct shaded_ground *g, size_t vertices, struct error *err)
 {
+    if (g->hidden && room_for(vertices) == room_for(g->vertices)) return true;
+    vertices = room_for(vertices);
     void *p = realloc(g->position_m, (vertices + 1) * sizeof *g->position_m);
     if (p) g->position_m = p;
     void *n = realloc(g->normal, (vertices + 1) * sizeof *g->normal);
@@ -30,6 +40,8 @@ static bool grow_vertices(struct shaded_ground *g, size_t vertices, struct error
 
 static bool grow_triangles(struct shaded_ground *g, size_t triangles, struct error *err)
 {
+    if (g->triangle && room_for(triangles) == room_for(g->triangles)) return true;
+    triangles = room_for(triangles);
     void *t = realloc(g->triangle, (triangles + 1) * sizeof *g->triangle);
     if (t) g->triangle = t;
     return t || error_set(err, ERR_MEMORY, "no memory for the ground");
@@ -156,12 +168,13 @@ bool shaded_ground_of_cut(struct shaded_ground *ground, const struct static_cut 
         shaded_ground_release(&g);
         return false;
     }
-    free(g.normal);
-    g.normal = NULL;
-    if (!static_cut_normals(&g.normal, cut, err)) {
+    struct vec3 *normal = NULL;
+    if (!static_cut_normals(&normal, cut, err)) {
         shaded_ground_release(&g);
         return false;
     }
+    memcpy(g.normal, normal, cut->vertices * sizeof *normal);
+    free(normal);
     for (size_t i = 0; i < cut->vertices; i++) {
         const float *p = cut->position_m[i];
         g.position_m[i] = vec3((double)p[0], (double)p[1], (double)p[2]);
