@@ -52,7 +52,7 @@ static bool take_softness(struct hand *h, const struct manifest *m, const struct
     const struct edges *e = &h->edges;
     if (m->sharpening_auto) h->sharpening = e->sharpening;
     if (!m->softness_auto || e->count < EDGES_MIN) return true;
-    h->hider_px = besides_pixel(e->sigma_px[0]);
+    h->hider_px = fmin(besides_pixel(e->sigma_px[0]), MANIFEST_SOFTNESS_AUTO_MAX_PX);
     if (!edges_of_layer(&h->layer_edges, object, e->low, e->high, err)) return false;
     double own_px = h->layer_edges.count < EDGES_MIN ? LAYER_EDGE_PX : h->layer_edges.sigma_px[0];
     double rest_px2 = e->sigma_px[0] * e->sigma_px[0] - own_px * own_px;
@@ -79,7 +79,7 @@ bool hand_measure(struct hand *hand, const struct manifest *m, const struct imag
                   const struct image *object, struct error *err)
 {
     struct hand h = { .softness_px = m->softness_auto ? 0 : m->softness_px, .sharpening = m->sharpening_auto ? 0 : m->sharpening, .knee = 1 };
-    if (h.softness_px > 0) h.hider_px = besides_pixel(hypot(h.softness_px, LAYER_EDGE_PX));
+    if (!m->new_view && h.softness_px > 0) h.hider_px = besides_pixel(hypot(h.softness_px, LAYER_EDGE_PX));
     if (!m->grain_auto && m->grain > 0) {
         h.has_grain = true;
         h.grain = grain_white(m->grain);

@@ -27,8 +27,8 @@ static const char *source(bool automatic, bool done)
 
 static json_t *softness(const struct hand *h, const struct manifest *m)
 {
-    json_t *o = json_pack("{s:s, s:o, s:o}", "source", source(m->softness_auto, h->softness_px > 0 || h->too_soft_px2 > 0),
-                          "px", number(h->softness_px), "taken_back_px2", number(h->too_soft_px2));
+    json_t *o = json_pack("{s:s, s:o, s:o, s:o}", "source", source(m->softness_auto, h->softness_px > 0 || h->too_soft_px2 > 0),
+                          "px", number(h->softness_px), "taken_back_px2", number(h->too_soft_px2), "hider_px", number(h->hider_px));
     if (m->softness_auto) {
         json_object_set_new(o, "edges", json_integer((json_int_t)h->edges.count));
         json_object_set_new(o, "edge_sigma_px_quartiles", numbers(h->edges.sigma_px, 3));

@@ -28,8 +28,8 @@ struct transfer_thresholds {
     bool overwrite_below;   /* overwrite below t2, t3 rather than from them upwards */
 };
 
-/* out = B r + (k O - a r B') v, where r = 1 + g (clamp(S/P) - 1): the ground under a soft
- * edge is shaded before the edge goes over it. B' is B; where v is below 1, what B shows beside: at the
+/* out = B + B' (clamp(S/P) - 1) (g - a min(g, v)) + (k O - a B') v: the ground under a soft edge is shaded
+ * before the edge goes over it. B' is B; under an entity with v below 1, what B shows beside: at the
  * edge of what hides, a pixel's light comes in part from it and in part from behind.
  * Out, here and below: F32, 3 channels, initialized here. Err, here and below: ERR_MEMORY */
 bool transfer_layers(struct image *out, const struct transfer_input *in, struct error *err);

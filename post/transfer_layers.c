@@ -1,9 +1,9 @@
 #include "post/transfer.h"
 
-enum { REACH_PX = 2, WHOLE = 250, NONE = 12 };
+enum { REACH_PX = 4, WHOLE = 250, NONE = 12 };
 
 /* What is seen behind the soft edge of something that hides it, of the light of a pixel that shows both: what is behind is
- * as beside it, what hides is no other than it is farther in.
+ * as beside it, what hides is no other than it is farther in. Where either is farther off, or nowhere, the pixel's own light.
  * In/out: rgb  the pixel's light */
 static void behind(float rgb[3], const struct transfer_input *in, int x, int y, float seen)
 {
@@ -13,10 +13,12 @@ static void behind(float rgb[3], const struct transfer_input *in, int x, int y, 
             if (u < 0 || v < 0 || u >= in->photograph->width_px || v >= in->photograph->height_px) continue;
             const float *b = image_f32(in->photograph, u, v);
             uint8_t share = *image_u8(in->visible, u, v);
-            beside += share >= WHOLE;
+            int far_px2 = (u - x) * (u - x) + (v - y) * (v - y);
+            float weight = share >= WHOLE ? 1 / (float)(far_px2 * far_px2) : 0; /* the pixel itself is not whole */
+            beside += weight;
             within += share <= NONE;
             for (int c = 0; c < 3; c++) {
-                if (share >= WHOLE) sum[c] += b[c];
+                sum[c] += weight * b[c];
                 if (share > NONE) continue;
                 if (b[c] < low[c]) low[c] = b[c];
                 if (b[c] > high[c]) high[c] = b[c];
@@ -40,7 +42,8 @@ bool transfer_layers(struct image *out, const struct transfer_input *in, struct 
         float v = transfer_share(in->visible, i), g = transfer_share(in->receiver, i), back[3] = { b[0], b[1], b[2] };
         if (o[3] * v > 0 && v * 255 < WHOLE) behind(back, in, (int)(i % width), (int)(i / width), v);
         for (int c = 0; c < 3; c++) {
-            float shade = 1 + g * (transfer_ground(p, s, c) - 1), light = b[c] * shade + v * ((float)in->exposure[c] * o[c] - o[3] * shade * back[c]);
+            float shade = transfer_ground(p, s, c) - 1, bare = g - o[3] * (g < v ? g : v); /* of the ground, and how much of it is left */
+            float light = b[c] + back[c] * shade * bare + v * ((float)in->exposure[c] * o[c] - o[3] * back[c]);
             to[c] = light > 0 ? light : 0;
         }
     }

@@ -51,7 +51,7 @@ bool transfer_ratio(struct image *out, const struct transfer_input *in, struct e
             for (int c = 0; c < 3; c++) {
                 float k = (float)in->exposure[c], all = o[c] + s[c] * (1 - o[3]);
                 to[c] = b[c] + object * (k * all - b[c]) + plane * b[c] * (transfer_ratio_of(all, p[c]) - 1);
-                if (!(m_pl[i] > 0)) to[c] += (1 - object) * transfer_share(in->visible, i) * (k * o[c] - o[3] * b[c]);
+                if (!(m_pl[i] > 0)) to[c] += (1 - m_obj[i]) * transfer_share(in->visible, i) * (k * o[c] - o[3] * b[c]);
             }
         }
     }

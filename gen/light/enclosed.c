@@ -1,5 +1,7 @@
 #include "gen/light/enclosed.h"
 
+#include "lib/luminance.h"
+
 #include <math.h>
 
 enum { DIRECTIONS = 64, SIDES = 8 };
@@ -30,7 +32,8 @@ void enclosed_irradiance(double rgb[3], const struct light *light, const struct 
             double of_sky[3];
             if (!static_mesh_blocks(place, points_m[i], sky[k].direction, OFF_GROUND_M, FAR_M)) continue;
             light_sky_radiance(of_sky, light, sky[k].direction);
-            for (int c = 0; c < 3; c++) lost[c] += sky[k].color[c] * sky[k].direction.z * (1 - sides[c] / of_sky[c]);
+            double part = luminance_of(sky[k].color) / fmax(luminance_of(of_sky), 1e-9); /* of the hemisphere */
+            for (int c = 0; c < 3; c++) lost[c] += sky[k].direction.z * (sky[k].color[c] - part * sides[c]);
         }
     for (int c = 0; c < 3; c++) rgb[c] = level[c] - lost[c] / (double)points;
 }

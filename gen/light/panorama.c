@@ -11,7 +11,7 @@ enum { WIDTH = 1024, FINE = 2 };   /* FINE: samples along a side of a pixel that
 #define STEP_RAD (0.5 * M_PI / 180)
 #define TOP_SHARE 0.7 /* higher up the sides of a picture show less */
 #define OFF_PLACE_M 0.3
-enum { AZIMUTHS = 64 };
+enum { AZIMUTHS = 24 };
 
 /* The circle on which stands what the picture shows beyond its ground. */
 struct wall {
@@ -131,7 +131,7 @@ static double mix_picture(double rgb[3], double *known, const struct seen *seen,
 }
 
 /* What the place shows in a direction. False where it is open. */
-static bool of_place(double rgb[3], double *known, const struct panorama_input *in, struct vec3 d)
+static bool of_place(double rgb[3], const struct panorama_input *in, struct vec3 d)
 {
     struct static_hit hit;
     struct vec2 q;
@@ -141,10 +141,11 @@ static bool of_place(double rgb[3], double *known, const struct panorama_input *
     static_mesh_color(in->place, own, &hit, hit.range_m * 2 * M_PI / WIDTH);
     for (int c = 0; c < 3; c++) rgb[c] = (double)own[c] * in->color_gain[c];
     struct vec3 p = vec3_add(in->from_m, vec3_scale(d, hit.range_m)), eye = in->seen->world_from_camera.translation;
-    if (!seen_project(in->seen, &q, p)) return true;
+    if (!seen_project(in->seen, &q, p) || seen_hidden(in->seen, q)) return true;
+    double known;
     struct vec3 to_eye = vec3_sub(eye, p);
     double range = vec3_norm(to_eye);
-    if (!static_mesh_blocks(in->place, p, vec3_scale(to_eye, 1 / range), OFF_PLACE_M, range)) mix_picture(rgb, known, in->seen, q, NULL, NULL);
+    if (!static_mesh_blocks(in->place, p, vec3_scale(to_eye, 1 / range), OFF_PLACE_M, range)) mix_picture(rgb, &known, in->seen, q, NULL, NULL);
     return true;
 }
 
@@ -154,7 +155,7 @@ static bool look(double rgb[3], double *known, const struct panorama_input *in, 
     struct vec2 q;
     double aside, z, gain[3];
     *known = 1;
-    if (in->place && of_place(rgb, known, in, d)) return true;
+    if (in->place && of_place(rgb, in, d)) return true;
     sky_between(rgb, &in->light->sky, d);
     if (!wall->there || hypot(d.x, d.y) < 0.1) return false;
     meet_wall(&aside, &z, in, wall, d);

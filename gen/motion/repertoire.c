@@ -43,8 +43,12 @@ bool repertoire_create(struct repertoire *out, const struct model *model, struct
     bool known = false;
     for (size_t i = 0; i < model->rig->animation_count; i++) {
         const char *name = model->rig->animations[i].name;
+        if (says(name, "halt")) {
+            if (!made.halts) made.halt = i;
+            made.halts = true;
+            continue;
+        }
         enum pace pace = pace_of(name);
-        if (says(name, "halt") && !made.halts) made.halts = known = true, made.halt = i;
         if (pace == PACE_COUNT || made.has[pace]) continue;
         made.has[pace] = known = true;
         made.animation[pace] = i;

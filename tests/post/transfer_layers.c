@@ -28,6 +28,20 @@ static void at_a_soft_edge(void)
     OK(image_f32(&out, 2, 0)[0] == 0.3f, "within it stays to the last bit");
     NEAR(image_f32(&out, 4, 0)[0], 0.9, 1e-6, "beside it the entity is whole");
     image_release(&out);
+
+    /* The same with a shadow of 0.3 on the ground under the entity. */
+    float plane[WIDTH * 4], shadow[WIDTH * 4];
+    for (int i = 0; i < WIDTH * 4; i++) {
+        plane[i] = 1;
+        shadow[i] = i % 4 == 3 ? 1 : 0.3f;
+    }
+    struct image lit = { WIDTH, 1, 4, PIXEL_F32, plane }, shaded = { WIDTH, 1, 4, PIXEL_F32, shadow };
+    in.plane = &lit;
+    in.shadow = &shaded;
+    in.receiver = &visible;
+    if (!OK(transfer_layers(&out, &in, &err), "and in the shade")) return;
+    NEAR(image_f32(&out, 3, 0)[0], 0.3 * 0.6 + 0.9 * 0.4, 1e-6, "what hides is not in the entity's shade");
+    image_release(&out);
 }
 
 int main(void)

@@ -53,6 +53,15 @@ int main(void)
     NEAR(image_f32(&out, 4, 4)[0], 0.45, 1e-6, "stands before the photograph's ground");
     OK(image_f32(&out, 5, 4)[0] == 0.5f, "and what is beside it stays to the last bit");
     image_release(&out);
+    uint8_t half[N * N];
+    memset(half, 51, sizeof half); /* 0.2 */
+    struct image visible = { N, N, 1, PIXEL_U8, half };
+    for (int i = 0; i < N * N; i++) fill(o + 4 * i, 0.4f, 1);
+    in.visible = &visible;
+    if (!OK(transfer_ratio(&out, &in, &err), "that something hides in part")) return tap_done();
+    NEAR(image_f32(&out, 4, 4)[0], 0.5 * 0.8 + 2 * 0.4 * 0.2, 1e-5, "is there by that part");
+    image_release(&out);
+    in.visible = NULL;
 
     /* Ground in columns 0..4 under a shadow of one half; with half of the receiver hidden in row 8. */
     uint8_t g[N * N];
