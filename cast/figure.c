@@ -136,8 +136,8 @@ static bool write_level(int level, const struct hull *hull, const struct wardrob
     uint8_t *png = texture_png(&png_size, texture, 1 << level);
     struct skin_figure skin = { .name = person->name, .body = body, .piece = pieces, .pieces = count, .clip = clips, .clips = MOTION_COUNT,
                                 .png = png, .png_size = png_size };
-    char *path = string_format("%s/%s%s.glb", folder, person->name, suffix[level]);
-    bool good = path && write_skin_glb(path, &skin, err);
+    char *path = need(string_format("%s/%s%s.glb", folder, person->name, suffix[level]));
+    bool good = write_skin_glb(path, &skin, err);
     for (int i = 0; i < count; i++) free(pieces[i].vertex), free(pieces[i].index);
     free(normals);
     free(png);

@@ -43,14 +43,15 @@ staffage_cast_SOURCES = \
 staffage_cast_LDADD = lib/libstaffage.a $(JANSSON_LIBS) $(ZLIB_LIBS) -lm -lpthread
 EXTRA_DIST += %D%/README.md
 
-# What it makes is listed in the catalogue, and made in one run; make install takes what the run left.
+# What it makes is listed in the catalogue, and made in one run; make install takes what the run left. What fails half-way
+# leaves no catalogue that looks done.
 noinst_DATA = models/catalogue.json
 models/catalogue.json: staffage-cast$(EXEEXT)
-	$(AM_V_GEN)rm -rf models && $(MAKE_MODELS) models
+	$(AM_V_GEN)rm -rf models models.part && $(MAKE_MODELS) models.part && mv models.part models
 modelsdir = $(pkgdatadir)/models
 install-data-local: models/catalogue.json
 	$(MKDIR_P) '$(DESTDIR)$(modelsdir)' && $(INSTALL_DATA) models/* '$(DESTDIR)$(modelsdir)'
 uninstall-local:
 	rm -rf '$(DESTDIR)$(modelsdir)'
 clean-local:
-	rm -rf models
+	rm -rf models models.part

@@ -193,8 +193,8 @@ bool write_vehicle(size_t triangles[LEVELS], const struct vehicle_spec *spec, st
         shell_clean(&vehicle.body), shell_clean(&vehicle.driver);
         if (level == FAR) shell_decimate(&vehicle.body, FAR_TRIANGLES - wheels);
         triangles[level] = wheels + vehicle.body.faces_count + vehicle.driver.faces_count;
-        char *path = string_format("%s/%s%s.glb", folder, spec->name, suffix[level]);
-        good = path && write_level(&vehicle, spec, path, err);
+        char *path = need(string_format("%s/%s%s.glb", folder, spec->name, suffix[level]));
+        good = write_level(&vehicle, spec, path, err);
         free(path);
         vehicle_release(&vehicle);
     }
