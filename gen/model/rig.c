@@ -316,6 +316,7 @@ bool rig_follow(struct rig *rig, const struct mesh *meshes, struct error *err)
 static uint64_t hash_node(uint64_t hash, const struct rig_node *node)
 {
     hash = hash_bytes(hash, &node->parent, sizeof node->parent);
+    hash = hash_bytes(hash, &node->is_driver, sizeof node->is_driver);
     if (node->has_matrix) return hash_bytes(hash, &node->matrix, sizeof node->matrix);
     hash = hash_bytes(hash, node->translation, sizeof node->translation);
     hash = hash_bytes(hash, node->rotation, sizeof node->rotation);

@@ -299,6 +299,9 @@ static void hashes_tell_of_animations(void)
     hash_tells(rig, &rig->skins[1].inverse_bind[rig->skins[1].joint_count - 1].a[2][3], "its skins");
     for (size_t i = 0; i < rig->node_count; i++)
         if (!rig->nodes[i].has_matrix) hash_tells(rig, &rig->nodes[i].scale[2], "its nodes");
+    uint64_t manned = rig_hash(1, rig);
+    rig->nodes[0].is_driver = true;
+    OK(rig_hash(1, rig) != manned, "the hash of a rig tells of who drives");
     model_destroy(m);
 }
 
