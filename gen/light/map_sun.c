@@ -14,7 +14,8 @@ bool map_sun_doubt(char **text, const struct light *light, const struct scene *s
     if (scene->sky != SKY_MAP || scene->sun != SUN_IN_MAP || !light->has_sun || !scene->has_place || !scene->has_time) return true;
     struct sun_position sun;
     const struct vec3 d = light->sun_direction;
-    if (!sun_position(&sun, scene->time_utc, 0, scene->place, (struct atmosphere){ 0, 0 }, err)) return false;
+    struct error unknown = ERROR_NONE; /* a year that it does not know is no reason for a run to fail that needs no sun of it */
+    if (!sun_position(&sun, scene->time_utc, 0, scene->place, (struct atmosphere){ 0, 0 }, &unknown)) return true;
     double azimuth = atan2(d.x, d.y) + scene->north_rad, elevation = asin(fmin(1, d.z));
     struct vec3 shown = vec3(cos(elevation) * sin(azimuth), cos(elevation) * cos(azimuth), sin(elevation));
     double off_deg = acos(fmax(-1, fmin(1, vec3_dot(shown, sun.direction)))) * DEG;

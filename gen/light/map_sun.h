@@ -9,7 +9,7 @@
 #include <stdbool.h>
 
 /* Out: text  to warn with, to be freed; NULL when they agree within 15 deg, or one of them is not known
- * Err: ERR_INPUT as of sun_position; ERR_MEMORY */
+ * Err: ERR_MEMORY */
 bool map_sun_doubt(char **text, const struct light *light, const struct scene *scene, struct error *err);
 
 #endif

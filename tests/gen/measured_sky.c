@@ -134,6 +134,8 @@ static void check_doubt(char *file)
             NEAR(computed[1], 90 - 51.48 + 23.44, 0.1, "its elevation");
         }
         free(text);
+        scene.time_utc.year = 9000;
+        OK(map_sun_doubt(&text, &light, &scene, &err) && !text && err.code == ERR_OK, "nor in a year whose sun is not known");
         light_release(&light);
         image_release(&map);
     }
