@@ -63,7 +63,7 @@ static bool pose_entity(struct moment *moment, const struct posture *posture, st
 
 /* How one on a path is on his way: where on it, how fast, how far he has gone; from which phase of his gait on; how
  * long he rests, and how far to the left he stands then. */
-struct progress { double s_m, speed_m_s, gone_m, phase, rest_s, aside_m; };
+struct progress { double s_m, speed_m_s, gone_m, phase, rest_s, aside_m; bool waits; /* stands where the path begins */ };
 
 static double clamp(double x, double low, double high) { return fmin(fmax(x, low), high); }
 
@@ -93,7 +93,7 @@ static struct progress walk_on(const struct scene_entity *e, const struct repert
     struct progress p = { .speed_m_s = now.speed_m_s, .gone_m = now.gone_m, .rest_s = now.rest_s,
                           .phase = gait_time(gait, gait->meet_m - journey.length_m, 0) / gait->duration_s };
     if (!repertoire->halts) p.aside_m = gait->meet_aside_m;
-    if (begin_m + p.gone_m < 0) p.gone_m = -begin_m, p.speed_m_s = 0;
+    if (begin_m + p.gone_m < 0) p.gone_m = -begin_m, p.speed_m_s = 0, p.waits = true;
     double at_m = fmin(begin_m + p.gone_m, length_m);
     p.s_m = back ? length_m - at_m : at_m;
     return p;
@@ -128,7 +128,8 @@ static bool add_entity(struct moment *moment, const struct stage *stage, size_t 
     if (entity->model->rig) {
         struct pace_now now = { .speed_m_s = progress.speed_m_s, .wish_m_s = stage->courses[i] ? e->speed_m_s : 0, .distance_m = progress.gone_m,
                                 .phase = progress.phase, .time_s = time_s };
-        posture = walking ? repertoire_rest(repertoire, &now, progress.rest_s) : repertoire_posture(repertoire, &now, pace_stands(&now));
+        posture = walking && !progress.waits ? repertoire_rest(repertoire, &now, progress.rest_s)
+                                             : repertoire_posture(repertoire, &now, pace_stands(&now));
         p.x -= posture.share * progress.aside_m * cos(heading);
         p.y += posture.share * progress.aside_m * sin(heading);
     }

@@ -6,6 +6,7 @@
 #include "lib/file.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* --- who is who --- */
 
@@ -108,11 +109,23 @@ static bool warn_of_gliding(struct stage *stage, size_t model, struct error *err
                                      stage->models[model]->path), err);
 }
 
+/* The coarser levels of the cast have no driver; where the finest has none either, somebody may sit there in the model's one piece. */
+static bool warn_of_parked(struct stage *stage, size_t entity, struct error *err)
+{
+    const struct scene_entity *e = &stage->scene->entities[entity];
+    const struct scene_model *named = &stage->scene->models[stage->cast[entity]];
+    const struct model *model = stage->models[stage->cast[entity]];
+    if (!e->parked || model_has_driver(model) || strcmp(model->path, detail_file(named, DETAIL_NEAR)) != 0) return true;
+    return stage_warn(stage, string_format("%s:%d:%d: entity \"%s\" is parked, but %s has no driver that can be left out: an animated glTF "
+                                           "with a node \"driver\" would be right", stage->scene->path, e->source.line, e->source.column,
+                                           e->name, model->path), err);
+}
+
 bool stage_load_models(struct stage *stage, const struct material_rules *rules, struct error *err)
 {
     const struct scene *s = stage->scene;
     for (size_t i = 0; i < s->entity_count; i++)
-        if (!load_model(stage, stage->cast[i], rules, stage_class(stage, i), err)) return false;
+        if (!load_model(stage, stage->cast[i], rules, stage_class(stage, i), err) || !warn_of_parked(stage, i, err)) return false;
     const struct scene_movers *const movers[] = { &s->vehicles, &s->people };
     for (int k = 0; k < 2; k++)
         for (size_t i = 0; i < movers[k]->choice.count; i++) {

@@ -255,6 +255,14 @@ static void lift(struct model *model, double up_m)
     measure(model);
 }
 
+bool model_has_driver(const struct model *model)
+{
+    const struct rig *rig = model->rig;
+    for (size_t i = 0; rig && i < rig->mesh_count; i++)
+        if (rig->nodes[rig->meshes[i].node].is_driver) return true;
+    return false;
+}
+
 static void leave_driver_out(struct model *posed, const struct rig *rig)
 {
     size_t kept = 0;

@@ -71,5 +71,7 @@ void model_destroy(struct model *model);
  * Err: ERR_INPUT at the model's path: it has no animation; a coordinate is not a number. ERR_MEMORY */
 bool model_pose(struct model *posed, const struct model *model, const struct posture *posture, struct error *err);
 void model_posed_release(struct model *posed);
+/* Is there one to leave out when it is parked? */
+bool model_has_driver(const struct model *model);
 
 #endif

@@ -29,7 +29,7 @@ static const char scene_text[] =
     "  - {name: walker, model: man, path: walk, start_m: 5, speed_m_s: 1.4}\n"
     "  - {name: other way, model: man, path: walk, start_m: 40, speed_m_s: -1.4}\n"
     "  - {name: setting out, model: man, path: walk, start_m: 91.4, speed_m_s: -1.4, offset_m: 1}\n"
-    "  - {name: parked, model: box, at: {world_m: [-20, 5]}, heading_deg: 90}\n"
+    "  - {name: parked, model: box, at: {world_m: [-20, 5]}, heading_deg: 90, parked: true}\n"
     "traffic:\n"
     "  vehicles: {count: 2, models: {box: {}}, colors: [\"#ff0000\", \"#00ff00\", \"#0000ff\"]}\n"
     "  people: {count: 3, models: {man: {}}}\n";
@@ -196,6 +196,29 @@ static void check_halts(const struct stage *stage)
     }
 }
 
+/* The walker is 5 m from where the path begins, and long before he was there. */
+static void check_wait(const struct stage *stage)
+{
+    struct moment m = at(stage, -20);
+    double least = INFINITY;
+    for (double time_s = 40; time_s < 50; time_s += 0.25) { /* who stands shifts his weight about */
+        struct moment stood = at(stage, time_s);
+        least = fmin(least, apart(m.entities[WALKER].model, stood.entities[OTHER_WAY].model));
+        moment_release(&stood);
+    }
+    check_place(&m.entities[WALKER], 100, 0, 0, 1, "before he sets out");
+    NEAR(vec3_norm(m.velocity_m_s[WALKER]), 0, 0, "he does not move");
+    NEAR(least, 0, 0.03, "and stands, as who has come to an end, not in mid-step");
+    moment_release(&m);
+}
+
+static void check_parked(const struct stage *stage)
+{
+    bool said = stage->warning_count == 1;
+    OK(said && strstr(stage->warnings[0], "scene.yaml:21:5: entity \"parked\" is parked, but ") && strstr(stage->warnings[0], "box.obj has no driver"),
+       "it is said that nobody can be left out of who is parked: %s", said ? stage->warnings[0] : "");
+}
+
 /* The animation's own figures are part of what a frame depends on. */
 static void check_hash(const struct stage *stage, const struct scene *scene, const struct material_rules *rules)
 {
@@ -225,6 +248,8 @@ int main(void)
         check_ids(stage);
         check_gait(stage);
         check_halts(stage);
+        check_wait(stage);
+        check_parked(stage);
         check_hash(stage, scene, rules);
     }
     stage_destroy(stage);
