@@ -202,6 +202,46 @@ static void test_exposure_is_fitted(void)
     free(path);
 }
 
+/* A road of 0.1 and a narrower sidewalk of 0.2 beside it, seen along the road from 6 m up, through haze of 0.5 that leaves
+ * 5 % at visibility_m (0: none): far off the road is as bright as the sidewalk is here. */
+static bool put_street(const char *name, double visibility_m)
+{
+    enum { W = 320, H = 240 };
+    static uint8_t rgb[W * H * 3];
+    struct image image = { W, H, 3, PIXEL_U8, rgb };
+    struct error err = ERROR_NONE;
+    double down = atan2(6, 28);
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++) {
+            double u = (x + 0.5 - 160) / 200, v = (y + 0.5 - 120) / 200, fall = sin(down) + v * cos(down), value = 0.5;
+            if (fall > 0) {
+                double range = 6 / fall, t = visibility_m > 0 ? pow(0.05, range * sqrt(1 + u * u + v * v) / visibility_m) : 1;
+                value = (u * range < 3 ? 0.1 : 0.2) * t + 0.5 * (1 - t);
+            }
+            memset(rgb + 3 * (y * W + x), (int)(255 * (double)srgb_from_linear((float)value) + 0.5), 3);
+        }
+    char *path = in_scratch(name);
+    bool ok = image_write(path, &image, &err);
+    free(path);
+    return ok;
+}
+
+static void test_exposure_in_mist(void)
+{
+    static const char head[] = "photographs: {files: [street.png]}\ncamera: {model: PINHOLE, size_px: [320, 240], params: [200, 200, 160, 120], "
+                               "pose: {look_at: {position_m: [0, 0, 6], target_m: [0, 28, 0]}}}\nground: {height_m: 0, albedo: 0.1}\nexposure: auto";
+    static const char car[] = "entities: [{name: e, model: box, at: {world_m: [0, 15]}, heading_deg: 0}]";
+    static const char mist[] = "weather: {visibility_m: 120, haze: [0.5, 0.5, 0.5]}\n"
+                               "entities: [{name: e, model: box, at: {world_m: [0, 15]}, heading_deg: 0}]";
+    struct manifest clear, hazy;
+    if (!OK(put_street("street.png", 0) && makes(head, car) && manifest_there(&clear), "a street, exposed by its ground")) return;
+    if (OK(put_street("street.png", 120) && makes(head, mist) && manifest_there(&hazy), "the same in haze")) {
+        for (int c = 0; c < 3; c++) NEAR(hazy.exposure[c] / clear.exposure[c], 1, 0.1, "has the same exposure, channel %d", c);
+        manifest_release(&hazy);
+    }
+    manifest_release(&clear);
+}
+
 int main(void)
 {
     snprintf(top, sizeof top, "%s", getenv("top_srcdir") ? getenv("top_srcdir") : ".");
@@ -222,6 +262,7 @@ int main(void)
     test_end_of_path();
     test_exposure_without_roads();
     test_exposure_is_fitted();
+    test_exposure_in_mist();
     char *remove = string_format("rm -rf %s", scratch);
     if (system(remove) != 0) printf("# %s is left\n", scratch);
     free(remove);
