@@ -1,6 +1,6 @@
 #include "post/transfer.h"
 
-enum { REACH_PX = 4, WHOLE = 250, NONE = 12 };
+enum { REACH_PX = 4, WHOLE = 250, NONE = 12 }; /* WHOLE, NONE: of 255 */
 
 /* What is seen behind the soft edge of something that hides it, of the light of a pixel that shows both: what is behind is
  * as beside it, what hides is no other than it is farther in. Where either is farther off, or nowhere, the pixel's own light.

@@ -16,7 +16,7 @@ enum { AZIMUTHS = 24 };
 /* The circle on which stands what the picture shows beyond its ground. */
 struct wall {
     bool there;
-    double upright[AZIMUTHS][3];   /* irradiance of an upright surface that faces an azimuth */
+    double upright[AZIMUTHS][3];   /* irradiance / pi of an upright surface that faces an azimuth */
     double radius_m, forward_rad;  /* azimuth, from +x towards +y, of the camera's look */
     double left_rad, right_rad;    /* how far to both sides the picture shows it, from the height of a body to near its top */
 };

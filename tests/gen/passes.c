@@ -217,11 +217,6 @@ int main(void)
         receiver_release(&receiver);
         light_release(&light);
     }
-    pid_t child = fork();
-    if (child == 0) {
-        execlp("rm", "rm", "-rf", out, (char *)NULL);
-        _exit(127);
-    }
-    waitpid(child, NULL, 0);
+    povray_remove(out);
     return tap_done();
 }

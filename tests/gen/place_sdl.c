@@ -159,11 +159,6 @@ int main(void)
     place_free(&place);
     static_mesh_destroy(mesh);
     light_release(&light);
-    pid_t child = fork();
-    if (child == 0) {
-        execlp("rm", "rm", "-rf", out, (char *)NULL);
-        _exit(127);
-    }
-    waitpid(child, NULL, 0);
+    povray_remove(out);
     return tap_done();
 }

@@ -39,4 +39,15 @@ static inline bool povray(const char *out, const char *pass, int width, int heig
     return status == 0;
 }
 
+/* The folder and all in it. */
+static inline void povray_remove(const char *out)
+{
+    pid_t child = fork();
+    if (child == 0) {
+        execlp("rm", "rm", "-rf", out, (char *)NULL);
+        _exit(127);
+    }
+    waitpid(child, NULL, 0);
+}
+
 #endif

@@ -166,11 +166,6 @@ int main(void)
     }
     free(map);
     free(folder);
-    pid_t child = fork();
-    if (child == 0) {
-        execlp("rm", "rm", "-rf", out, (char *)NULL);
-        _exit(127);
-    }
-    waitpid(child, NULL, 0);
+    povray_remove(out);
     return tap_done();
 }

@@ -241,11 +241,6 @@ int main(void)
     light_release(&light);
     solid_free(&white);
     solid_free(&mirror);
-    pid_t child = fork();
-    if (child == 0) {
-        execlp("rm", "rm", "-rf", out, (char *)NULL);
-        _exit(127);
-    }
-    waitpid(child, NULL, 0);
+    povray_remove(out);
     return tap_done();
 }
