@@ -20,9 +20,9 @@ static double median(const double *sorted, size_t n)
     return (sorted[(n - 1) / 2] + sorted[n / 2]) / 2;
 }
 
-struct exposure exposure_given(double k, int width_px, int height_px)
+struct exposure exposure_given(const double k[3], int width_px, int height_px)
 {
-    return (struct exposure){ .k = { k, k, k }, .at_px = { width_px / 2.0, height_px / 2.0 } };
+    return (struct exposure){ .k = { k[0], k[1], k[2] }, .at_px = { width_px / 2.0, height_px / 2.0 } };
 }
 
 static bool check_radiance(const double ground_radiance[3], struct error *err)

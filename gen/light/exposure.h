@@ -19,7 +19,7 @@ struct exposure {
     double median[3];   /* of the fit: linear values of the patch or the samples */
 };
 
-struct exposure exposure_given(double k, int width_px, int height_px);
+struct exposure exposure_given(const double k[3], int width_px, int height_px);
 
 /* Fit to a patch of unshadowed ground: its median over the radiance of the rendered ground,
  * channel by channel (white_balance) or one k by luminance.

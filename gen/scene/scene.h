@@ -185,7 +185,7 @@ struct scene {
     struct scene_movers vehicles, people;
 
     bool exposure_given, exposure_of_roads, exposure_of_ground; /* of none: the patch */
-    double exposure;           /* photograph linear value per radiance unit */
+    double exposure[3];        /* photograph linear values per radiance unit: R, G and B */
     struct vec2 exposure_patch_px[2]; /* corners: top left, bottom right; inside the camera's picture */
     struct source exposure_source;
     bool white_balance;        /* fit each channel, not luminance only */

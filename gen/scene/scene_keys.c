@@ -165,7 +165,7 @@ static const struct schema_key keys[] = {
     { "exposure", TYPE_MAPPING | TYPE_CHOICE, .presence = OPTIONAL, .choice = auto_name },
     { "exposure.roads", TYPE_BOOLEAN, .presence = ONE_OF },
     { "exposure.patch_px", TYPE_INTEGERS, "px", .presence = ONE_OF, COUNT(4), LIMITS(0, PIXELS_MAX) },
-    { "exposure.value", TYPE_NUMBER, .presence = ONE_OF, ABOVE(0, INFINITY) },
+    { "exposure.value", TYPE_NUMBER | TYPE_NUMBERS, .presence = ONE_OF, COUNT(3), ABOVE(0, INFINITY) },
     { "exposure.white_balance", TYPE_BOOLEAN, .preset = "true" },
 
     { "models", TYPE_NAMED, .preset = "{}" },

@@ -91,7 +91,7 @@ bool scene_read_exposure(const struct reading *r, const struct yaml_node *node)
     if (value) {
         if (!balance->is_default)
             return FAIL(r, balance, "exposure.white_balance: is fitted to a patch: it has no meaning with value");
-        scene->exposure = schema_number(value);
+        scene_read_color(scene->exposure, value);
         scene->white_balance = false;
         return true;
     }

@@ -89,8 +89,8 @@ int main(void)
     NEAR(e.k[0], 1.52625, 1e-3, "one k by luminance: 0.29484 / 0.19318");
     OK(e.k[0] == e.k[1] && e.k[1] == e.k[2], "for all channels");
 
-    e = exposure_given(0.7, W, H);
-    OK(e.k[0] == 0.7 && e.k[1] == 0.7 && e.k[2] == 0.7 && !e.fitted, "a given exposure is taken as it is");
+    e = exposure_given((double[3]){ 0.7, 0.8, 0.9 }, W, H);
+    OK(e.k[0] == 0.7 && e.k[1] == 0.8 && e.k[2] == 0.9 && !e.fitted, "a given exposure is taken as it is");
     OK(e.at_px.x == 10 && e.at_px.y == 5, "for the middle of the picture");
 
     refuses(&photograph, (struct rect){ 15, 0, 21, 5 }, radiance,

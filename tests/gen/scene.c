@@ -158,7 +158,7 @@ static void a_full_scene_is_read_back(void)
     NEAR(s->ground_albedo[1], 0.21586, 1e-5, "#80 is 0.216 in linear light");
     NEAR(s->ground_albedo[2], 0, 0, "#00 is 0");
     NEAR(s->ground_reflection, 0.125, 0, "reflection");
-    OK(s->exposure_given && s->exposure == 0.75 && !s->white_balance, "exposure given");
+    OK(s->exposure_given && s->exposure[0] == 0.75 && s->exposure[2] == 0.75 && !s->white_balance, "exposure given, one for all channels");
     OK(s->model_count == 2 && !strcmp(s->models[1].name, "tall box") && file_exists(s->models[1].files[DETAIL_NEAR]), "models by name");
     OK(s->models[0].options.length_m == 4.2 && s->models[0].options.unit_m == 0 && s->models[1].options.height_m == 1.8, "model sizes");
     OK(s->models[0].options.axes_given && s->models[0].options.up == AXIS_NEG_Y && s->models[0].options.front == AXIS_POS_Z &&
@@ -235,6 +235,9 @@ static void a_flight_is_read(void)
     OK(s->path_count == 1 && s->paths[0].shot == 1 && s->paths[0].use == ROAD_VEHICLES, "a path by pixels of a shot");
     OK(s->vehicles.count == 3 && s->vehicles.choice.weights[0] == 2.5 && s->vehicles.colors[0][0] == 1 && s->people.count == 0, "traffic");
     OK(s->exposure_of_roads && s->palette == PALETTE_UAVID, "exposure and palette");
+    scene_destroy(s);
+    s = read_sections("exposure: {value: [0.9, 1, 1.1]}\n", &err);
+    OK(s && s->exposure_given && s->exposure[0] == 0.9 && s->exposure[1] == 1 && s->exposure[2] == 1.1, "an exposure of each channel");
     scene_destroy(s);
 }
 
