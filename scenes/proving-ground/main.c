@@ -16,7 +16,7 @@
 
 static const char usage[] =
     "usage: proving-ground cases\n"
-    "       proving-ground scene CASE known|auto|light METHOD MODELS FILE\n"
+    "       proving-ground scene CASE known|fitted|auto|light METHOD MODELS FILE\n"
     "       proving-ground pov CASE SHOT KIND FILE    prints width, height, extension\n"
     "       proving-ground develop CASE SHOT FOLDER         radiance to photograph and truth\n"
     "       proving-ground reconstruct CASE FOLDER\n"
@@ -147,7 +147,7 @@ static bool compare_shot(char **a, struct error *err)
     if (!find_case(&c, a[0], err)) return false;
     struct camera camera = camera_of(c);
     struct comparison_files files = { .folder = a[2], .out = a[3], .shot = strtoul(a[1], NULL, 10),
-                                      .plain = strcmp(a[4], "layers") == 0 || strcmp(a[4], "auto") == 0 };
+                                      .plain = !strcmp(a[4], "layers") || !strcmp(a[4], "fitted") || !strcmp(a[4], "auto") };
     struct comparison result;
     if (!compare(&result, &files, c, &camera, err)) return false;
     comparison_print(stdout, c->name, files.shot, a[4], &result);

@@ -81,7 +81,7 @@ static int ascending(const void *a, const void *b)
 
 static void print_medians(FILE *f, const struct line *lines, size_t n)
 {
-    static const char *const methods[] = { "layers", "ratio", "threshold", "alpha", "auto" };
+    static const char *const methods[] = { "layers", "ratio", "threshold", "alpha", "fitted", "auto" };
     double values[LINES_MAX];
     fputs("| median of | psnr_db | ssim | shade_error | color_error |\n| --- | --- | --- | --- | --- |\n", f);
     for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {

@@ -92,25 +92,32 @@ static bool put_post(FILE *f, const struct proving_case *c, const struct camera 
 /* The street's middle, where the tool lays a smooth road over the reconstruction. */
 #define ROAD "paths: [{name: street, use: vehicles, width_m: 7, points_m: [[-40, 0], [40, 0]]}]\n"
 
+/* Known with the light; or fitted to asphalt, as its user would have it. */
+static void put_exposure(FILE *f, const struct proving_case *c, const struct camera *camera, const char *variant)
+{
+    const int *q = c->patch_px;
+    double scale = (double)camera->width_px / c->camera.width_px;
+    if (!strcmp(variant, "known")) fprintf(f, "exposure: {value: [%g, %g, %g]}\n", c->k[0], c->k[1], c->k[2]);
+    else if (strcmp(variant, "fitted") != 0) return;
+    else if (c->has_mesh) fputs("exposure: {roads: true}\n", f);
+    else fprintf(f, "exposure: {patch_px: [%.0f, %.0f, %.0f, %.0f]}\n", q[0] * scale, q[1] * scale, q[2] * scale, q[3] * scale);
+}
+
 static bool put_photographs(FILE *f, const struct proving_case *c, const struct camera *camera, const char *variant, struct error *err)
 {
-    bool stand_in = !strcmp(variant, "light"), known = !strcmp(variant, "known");
-    if (stand_in) {
+    if (!strcmp(variant, "light")) {
         fputs("photographs: {files: [grey.png]}\nexposure: {value: 1}\nground: {height_m: 0, albedo: 0.11}\n"
               "camera: {model: PINHOLE, size_px: [1000, 1000], horizontal_fov_deg: 70, pose: {look_at: "
               "{position_m: [0, 0, 60], target_m: [0, 0, 0], up: [0, 1, 0]}}}\n", f);
         return true;
     }
     if (!c->has_mesh) {
-        double scale = (double)camera->width_px / c->camera.width_px;
         fputs("photographs: {files: [photograph-0.jpg]}\ncamera: ", f);
         put_camera(f, camera);
         fputs(", ", f);
         put_pose(f, &c->shots[0]);
         fprintf(f, "\nground: {height_m: 0, albedo: %g}\n", PROVING_ALBEDO);
-        if (known)
-            fprintf(f, "exposure: {patch_px: [%.0f, %.0f, %.0f, %.0f]}\n", c->patch_px[0] * scale, c->patch_px[1] * scale,
-                    c->patch_px[2] * scale, c->patch_px[3] * scale);
+        put_exposure(f, c, camera, variant);
         fputs("occluders:\n", f);
         return put_post(f, c, camera, err) && put_parked(f, c, camera, err);
     }
@@ -122,7 +129,8 @@ static bool put_photographs(FILE *f, const struct proving_case *c, const struct 
         put_pose(f, &c->shots[i]);
         fputs("\n", f);
     }
-    fprintf(f, "static: {mesh: place.ply}\nground: {albedo: %g}\n%s" ROAD, PROVING_ALBEDO, known ? "exposure: {roads: true}\n" : "");
+    fprintf(f, "static: {mesh: place.ply}\nground: {albedo: %g}\n" ROAD, PROVING_ALBEDO);
+    put_exposure(f, c, camera, variant);
     return true;
 }
 

@@ -4,8 +4,9 @@
 
 #include "cases.h"
 
-/* variant: known (the light is told), auto (the light is to be found in the photograph), light (no photograph yet: a
- * grey stand-in, from above, for the tool to write its sun, its sky and its models).
+/* variant: known (light and exposure are told), fitted (the light is told, the exposure is fitted to asphalt), auto (both are
+ * to be found in the photograph), light (no photograph yet: a grey stand-in, from above, for the tool to write its sun, its
+ * sky and its models).
  * In: camera at the size of the photographs; models: folder of the models; method: of transfer */
 bool write_scene(const char *path, const struct proving_case *c, const char *variant, const char *method,
                  const struct camera *camera, const char *models, struct error *err);
