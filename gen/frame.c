@@ -243,7 +243,7 @@ bool frame_make(struct frame_result *result, const struct frame_context *context
         struct rect window = changed_window(&f);
         result->empty = window.x1 <= window.x0 || window.y1 <= window.y0;
         if (!result->empty)
-            ok = (view_cover(&result->view, camera, window, err) || stage_fail(s, shot->source, err)) &&
+            ok = (view_cover(&result->view, camera, window, pass_settings(s->quality).fineness, err) || stage_fail(s, shot->source, err)) &&
                  frame_expose(&f, err) && frame_write_passes(&f, &result->view, err);
     }
     ok = ok && frame_write_manifest(&f, result, err);

@@ -52,10 +52,10 @@ static bool write_place(struct place_files *files, struct shaded_ground *ground,
 
 /* The sky's light on the ground, past the place and the entities that matter. */
 static bool light_ground(struct shaded_ground *ground, const struct static_cut *around, const struct frame *f,
-                         const struct view *view, struct error *err)
+                         struct error *err)
 {
     struct pass_settings settings = pass_settings(f->scene->quality);
-    struct shaded_ground_detail detail = { f->shot->world_from_camera.translation, 1 / view->fx_px, settings.fine_px };
+    struct shaded_ground_detail detail = { f->shot->world_from_camera.translation, 1 / camera_intrinsics(f->camera).fx_px, settings.fine_px };
     struct sky_sight *sight = NULL;
     bool ok = sky_sight_create(&sight, f->context->light, settings.sky_directions, around, err);
     for (size_t i = 0; ok && i < f->moment.n; i++)
@@ -97,7 +97,7 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
     ok = ok && frame_write_surroundings(&surroundings, f, err) &&
          (f->stage->mesh ? write_place(&files, &ground, &around, &passes.ground, f, err)
                                : shaded_ground_of_plane(&ground, &f->scene->ground, receivers, n, err)) &&
-         light_ground(&ground, &around, f, view, err) && passes_write(f->folder, &passes, err);
+         light_ground(&ground, &around, f, err) && passes_write(f->folder, &passes, err);
     frame_release_surroundings(&surroundings);
     shaded_ground_release(&ground);
     static_cut_release(&around);

@@ -98,6 +98,7 @@ static uint64_t hash_settings(uint64_t hash, const struct generator *g)
     hash = hash_bytes(hash, &settings.fine_px, sizeof settings.fine_px);
     hash = hash_bytes(hash, &settings.radiosity_count, sizeof settings.radiosity_count);
     hash = hash_bytes(hash, &settings.radiosity_error, sizeof settings.radiosity_error);
+    hash = hash_bytes(hash, &settings.fineness, sizeof settings.fineness);
     hash = hash_bytes(hash, settings.object_antialias, strlen(settings.object_antialias));
     return hash_bytes(hash, settings.receiver_antialias, strlen(settings.receiver_antialias));
 }

@@ -82,7 +82,7 @@ static bool no_ray(const struct camera *camera, struct vec2 q, struct error *err
                      camera_model_name(camera->model), q.x, q.y, camera_invertible_angle_rad(camera) * 180 / M_PI);
 }
 
-static bool cover_lens(struct view *view, const struct camera *camera, struct rect window, struct error *err)
+static bool cover_lens(struct view *view, const struct camera *camera, struct rect window, double fineness, struct error *err)
 {
     struct vec3 rays[(GRID + 1) * (GRID + 1)];
     int n = 0;
@@ -120,7 +120,7 @@ static bool cover_lens(struct view *view, const struct camera *camera, struct re
             low = (struct vec2){ fmin(low.x, p.x), fmin(low.y, p.y) };
             high = (struct vec2){ fmax(high.x, p.x), fmax(high.y, p.y) };
         }
-    double focal_px = FINER / least;
+    double focal_px = fineness * FINER / least;
     double width = ceil((high.x - low.x) * focal_px) + 2 * MARGIN_PX;
     double height = ceil((high.y - low.y) * focal_px) + 2 * MARGIN_PX;
     if (!(width <= SIDE_MAX_PX && height <= SIDE_MAX_PX))
@@ -134,10 +134,10 @@ static bool cover_lens(struct view *view, const struct camera *camera, struct re
     return true;
 }
 
-bool view_cover(struct view *view, const struct camera *camera, struct rect window_px, struct error *err)
+bool view_cover(struct view *view, const struct camera *camera, struct rect window_px, double fineness, struct error *err)
 {
-    assert(window_px.x1 > window_px.x0 && window_px.y1 > window_px.y0);
-    if (!camera_is_pinhole(camera)) return cover_lens(view, camera, window_px, err);
+    assert(fineness >= 1 && window_px.x1 > window_px.x0 && window_px.y1 > window_px.y0);
+    if (!camera_is_pinhole(camera)) return cover_lens(view, camera, window_px, fineness, err);
     struct camera_intrinsics in = camera_intrinsics(camera);
     *view = (struct view){ window_px.x1 - window_px.x0, window_px.y1 - window_px.y0, in.fx_px, in.fy_px,
                            in.cx_px - window_px.x0, in.cy_px - window_px.y0, mat3_identity(), window_px, true };

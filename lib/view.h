@@ -2,8 +2,9 @@
  *
  * A view shares the camera's centre. For an undistorted camera it is a window
  * of the photograph itself, pixel on pixel; for a lens it is a pinhole image,
- * turned towards the part and at least as fine as the photograph there, that
- * post resamples into the photograph's pixels. */
+ * turned towards the part and so much finer than the photograph there as is
+ * wanted, that post resamples into the photograph's pixels: what is sampled
+ * twice loses less the finer it was. */
 #ifndef STAFFAGE_LIB_VIEW_H
 #define STAFFAGE_LIB_VIEW_H
 
@@ -19,8 +20,9 @@ struct view {
 };
 
 /* The view that covers `window_px` of the photograph.
+ * In:  fineness: of a lens's view, its pixels across a photograph's where the photograph is finest; 1 or more
  * Err: ERR_INPUT when the window spans more than 150 deg, or the lens is not invertible in it */
-bool view_cover(struct view *view, const struct camera *camera, struct rect window_px, struct error *err);
+bool view_cover(struct view *view, const struct camera *camera, struct rect window_px, double fineness, struct error *err);
 
 /* Photograph position -> view position (both continuous pixels). For aligned views a shift.
  * Err: ERR_NOT_INVERTIBLE as camera_unproject; ERR_BEHIND_CAMERA when outside the view's half space */

@@ -19,6 +19,7 @@ struct pass_settings {
     double fine_px;            /* where its shade changes, it is known at points so far apart */
     int radiosity_count;       /* in the object pass */
     double radiosity_error;
+    double fineness;           /* of a lens's view, over the photograph */
     /* POV-Ray options. The plane and shadow passes share theirs: along the receivers' edges their ratio
      * is 1 only where both are sampled alike. */
     const char *object_antialias, *receiver_antialias;

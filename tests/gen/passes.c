@@ -112,7 +112,7 @@ int main(void)
         struct passes p = { .scene = &scene, .sky_map = sky_map, .light = &light, .world_from_camera = world_from_camera,
                             .entities = &entity, .includes = &include, .entity_count = 1, .ground = scene.ground,
                             .receivers = &ground };
-        OK(view_cover(&p.view, &camera, (struct rect){ 0, 0, 200, 150 }, &err) &&
+        OK(view_cover(&p.view, &camera, (struct rect){ 0, 0, 200, 150 }, 1, &err) &&
            shaded_ground_of_plane(&ground, &scene.ground, &receiver, 1, &err) && shade_ground(&ground, &p, &receiver, NULL, &err),
            "%s: a view and its ground", name);
         if (!OK(render(pass, out, &p), "%s: POV-Ray renders all three passes", name)) return tap_done();
@@ -198,7 +198,7 @@ int main(void)
         struct passes p = { .scene = &scene, .sky_map = sky_map, .light = &light, .world_from_camera = world_from_camera,
                             .entities = &entity, .includes = &include, .entity_count = 1, .ground = scene.ground,
                             .receivers = &ground };
-        OK(view_cover(&p.view, &camera, (struct rect){ 0, 0, 200, 150 }, &err) &&
+        OK(view_cover(&p.view, &camera, (struct rect){ 0, 0, 200, 150 }, 1, &err) &&
            shaded_ground_of_plane(&ground, &scene.ground, &receiver, 1, &err) && shade_ground(&ground, &p, &receiver, NULL, &err),
            "a slope: a view and its ground");
         if (OK(render(pass, out, &p), "a slope: POV-Ray renders all three passes"))

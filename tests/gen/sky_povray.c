@@ -83,7 +83,7 @@ static void check_object_pass(const struct scene *scene, const struct light *lig
     struct passes p = { .scene = scene, .light = light, .world_from_camera = world_from_camera, .entities = &entity, .sky_map = sky_map,
                         .includes = &include, .entity_count = 1, .ground = scene->ground, .receivers = &nothing };
     char *folder = string_format("%s/frames", out), *path = string_format("%s/object.exr", folder);
-    bool ok = sky_map_write(sky_map, out, light, &err) && view_cover(&p.view, &camera, (struct rect){ 0, 0, WIDTH, HEIGHT }, &err) &&
+    bool ok = sky_map_write(sky_map, out, light, &err) && view_cover(&p.view, &camera, (struct rect){ 0, 0, WIDTH, HEIGHT }, 1, &err) &&
               model_include_write(&include, NULL, out, &entity, &err) && passes_write(folder, &p, &err) &&
               povray(out, "object", p.view.width_px, p.view.height_px, "-A -J") && image_read(&object, path, &err);
     if (OK(ok, "%s: POV-Ray renders the planes", name))

@@ -61,7 +61,7 @@ static bool render(struct image *pass, const struct light *light, const struct e
     struct passes p = { .scene = &scene, .sky_map = sky_map, .light = light, .world_from_camera = looking(eye, middle), .entities = entity,
                         .includes = &include, .entity_count = 1, .ground = scene.ground, .receivers = &nothing };
     bool ok = folder_make(folder, &err) && sky_map_write(sky_map, out, light, &err) &&
-              view_cover(&p.view, &camera, (struct rect){ 0, 0, WIDTH, HEIGHT }, &err) && model_include_write(&include, NULL, out, entity, &err);
+              view_cover(&p.view, &camera, (struct rect){ 0, 0, WIDTH, HEIGHT }, 1, &err) && model_include_write(&include, NULL, out, entity, &err);
     if (ok && picture) {
         struct orthophoto ground;
         struct seen seen = { .picture = picture, .camera = &camera, .world_from_camera = p.world_from_camera, .k = { 1, 1, 1 } };

@@ -47,7 +47,7 @@ int main(void)
     char *folder = string_format("%s/frames", out), *path = string_format("%s/plane.exr", folder);
     bool ok = light_create(&light, &scene, &err) && sky_map_write(sky_map, out, &light, &err) &&
               receiver_create(&receiver, &entity, &scene.ground, &light, false, &err) &&
-              view_cover(&p.view, &camera, (struct rect){ 0, 0, WIDTH, HEIGHT }, &err) &&
+              view_cover(&p.view, &camera, (struct rect){ 0, 0, WIDTH, HEIGHT }, 1, &err) &&
               shaded_ground_of_plane(&ground, &scene.ground, &receiver, 1, &err) && shade_ground(&ground, &p, &receiver, NULL, &err) &&
               model_include_write(&include, NULL, out, &entity, &err) && passes_write(folder, &p, &err) &&
               povray(out, "plane", p.view.width_px, p.view.height_px, "-A") && image_read(&plane, path, &err);

@@ -197,7 +197,7 @@ static bool begin(struct trial *trial, size_t index, struct error *err)
         struct shot *shot = &trial->shots[i];
         struct rect window = i < MARKERS ? around(places_px[i]) : sample->wide;
         if (window.x1 == 0) continue;
-        if (!view_cover(&shot->view, &sample->camera, window, err)) return false;
+        if (!view_cover(&shot->view, &sample->camera, window, 1.5, err)) return false;
         shot->stem = string_format("frames/%06zu/%d", index, i);
         char *folder = string_format("%s/frames/%06zu", out, index);
         bool ok = folder_make(folder, err) && write_scene(shot, world_from_camera, trial->markers, err);

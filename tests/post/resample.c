@@ -49,7 +49,7 @@ static bool resampled(struct image *out, const char *name, const struct camera *
 {
     struct error err = ERROR_NONE;
     struct image in;
-    if (!OK(view_cover(view, camera, (struct rect){ 100, 90, 200, 150 }, &err), "%s: a view covers the window", name)) {
+    if (!OK(view_cover(view, camera, (struct rect){ 100, 90, 200, 150 }, 1, &err), "%s: a view covers the window", name)) {
         printf("# %s\n", err.text);
         return false;
     }
@@ -98,7 +98,7 @@ static void check_equality(const struct camera *camera)
     struct error err = ERROR_NONE;
     struct view view;
     struct image in[2], out[2];
-    if (!view_cover(&view, camera, (struct rect){ 100, 90, 200, 150 }, &err)) return;
+    if (!view_cover(&view, camera, (struct rect){ 100, 90, 200, 150 }, 1, &err)) return;
     for (int k = 0; k < 2; k++)
         if (!image_init(&in[k], view.width_px, view.height_px, 4, PIXEL_F32, &err)) return;
     for (size_t i = 0; i < image_size(&in[0]) / sizeof(float); i++)
@@ -142,7 +142,7 @@ static void check_light(const char *name, const struct camera *camera)
     struct error err = ERROR_NONE;
     struct view view;
     struct image in[3], out[3];
-    if (!OK(view_cover(&view, camera, (struct rect){ 100, 90, 200, 150 }, &err), "%s: a view covers the window", name)) return;
+    if (!OK(view_cover(&view, camera, (struct rect){ 100, 90, 200, 150 }, 1, &err), "%s: a view covers the window", name)) return;
     for (int k = 0; k < 3; k++)
         if (!image_init(&in[k], view.width_px, view.height_px, 4, PIXEL_F32, &err)) return;
     double energy = 0;
@@ -197,7 +197,7 @@ static void check_fold(void)
     struct view view;
     struct image in, out;
     struct error err = ERROR_NONE;
-    if (!OK(view_cover(&view, &camera, (struct rect){ 150, 110, 250, 210 }, &err), "a view covers the middle of a folding lens")) return;
+    if (!OK(view_cover(&view, &camera, (struct rect){ 150, 110, 250, 210 }, 1, &err), "a view covers the middle of a folding lens")) return;
     if (!render(&in, &view, &camera, waves, 1)) return;
     view.window_px = (struct rect){ 0, 0, 400, 320 };
     if (!OK(resample_view(&out, &in, 1, &view, &camera, &err), "and is resampled into the whole photograph")) return;
