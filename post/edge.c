@@ -1,159 +1,54 @@
 #include "post/edge.h"
 
+#include "post/sharpening.h"
+#include "post/step.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define CELL_PX 12
 #define EDGES_MAX 3000
-#define ALONG_PX 3.0        /* half the length of edge that is looked at */
-#define NARROW_PX 4.0       /* half the way across it; other things are near */
-#define WIDE_PX 8.0         /* for what is blurred more than that shows */
-#define REACH_PX 9
-#define CONTRAST_MIN 0.07   /* between the two sides, 1 is white */
-#define MISFIT_MAX 0.07     /* root of the mean square, in units of the contrast */
-#define STRAIGHT_MIN 0.8    /* 1: light changes in one direction only */
-#define TELLING_PX 0.65     /* edges that are wider do not show whether they were sharpened */
-#define SHARPENING_SPREAD 0.5 /* what is known of it beforehand: a standard deviation, */
-#define NOISE 0.02          /* and that of a pixel, in units of the contrast */
-#define TELLING_MIN 12      /* edges, to tell how much they were sharpened */
-#define PARAMETERS 6
+#define BORDER_PX 10
+#define NARROW_PX 4.0         /* half the way across that is looked at; other things are near */
+#define CONTRAST_MIN 0.07     /* between the two sides, in levels, 1 is white */
+#define BESIDE_MAX 0.06       /* of a step's height: other things are too near */
+#define SPREAD 0.04           /* relative standard deviation of sharp edges' widths in one photograph: by place and colour */
+#define SAME 0.7              /* a maximum as high is no chance beside a higher one */
+#define WIDTH_MIN_PX 0.2
+#define WIDTH_MAX_PX 4.0
+#define WIDTH_STEP 0.01       /* relative */
+#define TELLING_ERROR_MAX 0.25 /* of a fit's sharpening, to tell */
+#define TELLING_MIN 8         /* edges, to tell how much they were sharpened */
+#define SHARPENING_MIN 0.15   /* less is not seen, and JPEG's blocks look like it */
+#define PAIR_ERROR_MAX 0.15   /* relative, of a width that is compared */
 
-struct candidate { float strength; int x, y; };
+struct candidate { float strength; int x, y; double angle; };
+struct candidates { struct candidate *list; size_t count; };
 
-/* A step seen through a Gaussian, and sharpened: with t = x cos + y sin - at,
- * low + step * (Phi(t / sigma) + sharpening * (Phi(t / sigma) - Phi(t / sqrt(sigma^2 + EDGE_SHARPENING_PX^2)))). */
-struct step { double low, step, at, angle, sigma, sharpening; };
+/* A picture's brightness as it is filed, where an edge is strong or weak for the eye, and as light, where a lens blurs. */
+struct brightness { struct image levels, light; };
 
-/* Sums of the normal equations, by Gauss and Newton. */
-struct normal { double a[PARAMETERS][PARAMETERS + 1], misfit; int points; };
+struct found_edge { struct candidate candidate; double sigma_px, error_px; };
 
-static bool solve(double x[PARAMETERS], struct normal *n)
+/* A value and how much it counts. */
+struct weighed { double value, weight; };
+
+static void brightness_release(struct brightness *b)
 {
-    for (int i = 0; i < PARAMETERS; i++) {
-        int pivot = i;
-        for (int k = i + 1; k < PARAMETERS; k++)
-            if (fabs(n->a[k][i]) > fabs(n->a[pivot][i])) pivot = k;
-        if (!(fabs(n->a[pivot][i]) > 1e-12)) return false;
-        for (int j = 0; j <= PARAMETERS; j++) {
-            double swap = n->a[i][j];
-            n->a[i][j] = n->a[pivot][j];
-            n->a[pivot][j] = swap;
-        }
-        for (int k = i + 1; k < PARAMETERS; k++) {
-            double by = n->a[k][i] / n->a[i][i];
-            for (int j = i; j <= PARAMETERS; j++) n->a[k][j] -= by * n->a[i][j];
-        }
-    }
-    for (int i = PARAMETERS - 1; i >= 0; i--) {
-        x[i] = n->a[i][PARAMETERS];
-        for (int j = i + 1; j < PARAMETERS; j++) x[i] -= n->a[i][j] * x[j];
-        x[i] /= n->a[i][i];
-    }
-    return true;
-}
-
-static double bell(double q)
-{
-    return exp(-q * q / 2) / sqrt(2 * M_PI);
-}
-
-/* In: find_sharpening: else it is taken as it is */
-static void compare_with(struct normal *n, const struct image *light, const struct candidate *c, const struct step *s, double angle,
-                         double across_px, bool find_sharpening)
-{
-    *n = (struct normal){ .points = 0 };
-    double across_x = cos(s->angle), across_y = sin(s->angle), wide = hypot(s->sigma, EDGE_SHARPENING_PX);
-    double pick_x = cos(angle), pick_y = sin(angle); /* the same points, however the step is turned */
-    for (int dy = -REACH_PX; dy <= REACH_PX; dy++)
-        for (int dx = -REACH_PX; dx <= REACH_PX; dx++) {
-            if (fabs(dx * pick_x + dy * pick_y) > across_px || fabs(dy * pick_x - dx * pick_y) > ALONG_PX) continue;
-            double t = dx * across_x + dy * across_y - s->at, u = dy * across_x - dx * across_y, q = t / s->sigma, r = t / wide;
-            double phi = erfc(-q * M_SQRT1_2) / 2, more = s->sharpening != 0 || find_sharpening ? phi - erfc(-r * M_SQRT1_2) / 2 : 0;
-            double shape = phi + s->sharpening * more, own = s->step * (1 + s->sharpening) * bell(q) / s->sigma;
-            double other = s->step * s->sharpening * bell(r) / wide, slope = own - other;
-            double d[PARAMETERS] = { 1, shape, -slope, slope * u, -own * q + other * r * s->sigma / wide, find_sharpening ? s->step * more : 0 };
-            double off = (double)*image_f32(light, c->x + dx, c->y + dy) - s->low - s->step * shape;
-            for (int i = 0; i < PARAMETERS; i++) {
-                for (int j = 0; j < PARAMETERS; j++) n->a[i][j] += d[i] * d[j];
-                n->a[i][PARAMETERS] += d[i] * off;
-            }
-            n->misfit += off * off;
-            n->points++;
-        }
-    double known = pow(NOISE * s->step / SHARPENING_SPREAD, 2);
-    n->a[5][5] += known;
-    if (find_sharpening) n->a[5][PARAMETERS] -= known * s->sharpening;
-}
-
-/* Mean of the light on one side of the edge. */
-static double side_of(const struct image *light, const struct candidate *c, double angle, double side, double across_px)
-{
-    double sum = 0;
-    int n = 0;
-    for (int u = -2; u <= 2; u++)
-        for (int k = 0; k < 2; k++, n++) {
-            double t = across_px - k, x = side * t * cos(angle) - u * sin(angle), y = side * t * sin(angle) + u * cos(angle);
-            sum += (double)*image_f32(light, c->x + (int)lrint(x), c->y + (int)lrint(y));
-        }
-    return sum / n;
-}
-
-/* The direction in which the light changes, from the squares of its differences. Returns false where it has many. */
-static bool across(double *angle, const struct image *light, const struct candidate *c)
-{
-    double xx = 0, xy = 0, yy = 0;
-    for (int dy = -3; dy <= 3; dy++)
-        for (int dx = -3; dx <= 3; dx++) {
-            double gx = (double)(*image_f32(light, c->x + dx + 1, c->y + dy) - *image_f32(light, c->x + dx - 1, c->y + dy));
-            double gy = (double)(*image_f32(light, c->x + dx, c->y + dy + 1) - *image_f32(light, c->x + dx, c->y + dy - 1));
-            xx += gx * gx;
-            xy += gx * gy;
-            yy += gy * gy;
-        }
-    *angle = atan2(2 * xy, xx - yy) / 2;
-    return hypot(2 * xy, xx - yy) > STRAIGHT_MIN * (xx + yy);
+    image_release(&b->levels);
+    image_release(&b->light);
 }
 
 static bool clips(const struct image *rgb, const struct candidate *c)
 {
-    for (int dy = -REACH_PX; dy <= REACH_PX; dy++)
-        for (int dx = -REACH_PX; dx <= REACH_PX; dx++) {
+    const int reach = BORDER_PX - 1;
+    for (int dy = -reach; dy <= reach; dy++)
+        for (int dx = -reach; dx <= reach; dx++) {
             const uint8_t *px = image_u8(rgb, c->x + dx, c->y + dy);
             if (px[0] == 255 || px[1] == 255 || px[2] == 255) return true;
         }
     return false;
-}
-
-struct found_edge { struct candidate candidate; double angle, sigma_px, sharpening, low, high; bool telling; };
-
-/* In: sharpening, by which all edges were; NAN when that is looked for */
-static bool fit(struct found_edge *found, const struct image *light, const struct candidate *c, double angle, double across_px,
-                double sharpening)
-{
-    const bool find = isnan(sharpening);
-    double low = side_of(light, c, angle, -1, across_px), high = side_of(light, c, angle, 1, across_px);
-    struct step s = { low, high - low, 0, angle, 0.8, find ? 0 : sharpening };
-    if (fabs(s.step) < CONTRAST_MIN) return false;
-    struct normal n;
-    for (int k = 0; k < 16; k++) {
-        double by[PARAMETERS];
-        compare_with(&n, light, c, &s, angle, across_px, find);
-        if (!solve(by, &n)) return false;
-        s.low += by[0];
-        s.step += by[1];
-        s.at += fmin(fmax(by[2], -1), 1);
-        s.angle += fmin(fmax(by[3], -0.1), 0.1);
-        s.sigma = fmin(fmax(s.sigma + by[4], s.sigma / 1.5), s.sigma * 1.5);
-        s.sharpening = fmin(fmax(s.sharpening + by[5], -3), 3);
-        if (s.sigma < 0.1 || s.sigma > 5 || fabs(s.at) > 3 || fabs(s.angle - angle) > 0.4) return false;
-        if (fabs(by[4]) < 1e-4 && fabs(by[2]) < 1e-3) break;
-    }
-    compare_with(&n, light, c, &s, angle, across_px, find);
-    *found = (struct found_edge){ *c, angle, s.sigma, s.sharpening, fmin(s.low, s.low + s.step), fmax(s.low, s.low + s.step),
-                                  find && s.sigma < TELLING_PX };
-    /* Both sides must be in view for a blur this wide. */
-    return fabs(s.step) >= CONTRAST_MIN && sqrt(n.misfit / n.points) <= MISFIT_MAX * fabs(s.step) && 2.2 * s.sigma + fabs(s.at) < across_px;
 }
 
 static int stronger(const void *a, const void *b)
@@ -163,103 +58,166 @@ static int stronger(const void *a, const void *b)
     return p->y != q->y ? (p->y > q->y) - (p->y < q->y) : (p->x > q->x) - (p->x < q->x);
 }
 
-/* The strongest change of light of each cell. */
-static size_t find_candidates(struct candidate *found, const struct image *light, const struct image *only)
+/* The strongest change of light of each cell, if it is straight. In: rgb, of which it is; NULL: nothing clips */
+static bool find_candidates(struct candidates *to, const struct image *levels, const struct image *rgb, const struct image *only, struct error *err)
 {
-    size_t n = 0;
-    int border = REACH_PX + 1;
-    for (int y0 = border; y0 < light->height_px - border; y0 += CELL_PX)
-        for (int x0 = border; x0 < light->width_px - border; x0 += CELL_PX) {
+    size_t cells = ((size_t)(levels->width_px / CELL_PX) + 1) * ((size_t)(levels->height_px / CELL_PX) + 1), n = 0, kept = 0;
+    struct candidate *found = malloc(cells * sizeof *found);
+    if (!found) return error_set(err, ERR_MEMORY, "no memory for the edges of a picture");
+    int right = levels->width_px - BORDER_PX, bottom = levels->height_px - BORDER_PX;
+    for (int y0 = BORDER_PX; y0 < bottom; y0 += CELL_PX)
+        for (int x0 = BORDER_PX; x0 < right; x0 += CELL_PX) {
             struct candidate best = { .strength = 0 };
-            for (int y = y0; y < y0 + CELL_PX && y < light->height_px - border; y++)
-                for (int x = x0; x < x0 + CELL_PX && x < light->width_px - border; x++) {
+            for (int y = y0; y < y0 + CELL_PX && y < bottom; y++)
+                for (int x = x0; x < x0 + CELL_PX && x < right; x++) {
                     if (only && !*image_u8(only, x, y)) continue;
-                    const float *p = image_f32(light, x, y);
-                    float gx = p[1] - p[-1], gy = p[light->width_px] - p[-light->width_px], strength = gx * gx + gy * gy;
-                    if (strength > best.strength) best = (struct candidate){ strength, x, y };
+                    const float *p = image_f32(levels, x, y);
+                    float gx = p[1] - p[-1], gy = p[levels->width_px] - p[-levels->width_px], strength = gx * gx + gy * gy;
+                    if (strength > best.strength) best = (struct candidate){ strength, x, y, 0 };
                 }
             if (best.strength > 0) found[n++] = best;
         }
     qsort(found, n, sizeof *found, stronger);
-    return n;
-}
-
-static bool brightness_of(struct image *light, const struct image *rgb, struct error *err)
-{
-    if (!image_init(light, rgb->width_px, rgb->height_px, 1, PIXEL_F32, err)) return false;
-    size_t n = (size_t)rgb->width_px * (size_t)rgb->height_px;
-    const uint8_t *px = rgb->data;
-    for (size_t i = 0; i < n; i++, px += 3)
-        ((float *)light->data)[i] = (0.2126f * px[0] + 0.7152f * px[1] + 0.0722f * px[2]) / 255;
+    for (size_t i = 0; i < n && kept < EDGES_MAX; i++) {
+        struct candidate c = found[i];
+        if (step_direction(&c.angle, levels, c.x, c.y) && !(rgb && clips(rgb, &c))) found[kept++] = c;
+    }
+    *to = (struct candidates){ found, kept };
     return true;
 }
 
-static int compare(const void *a, const void *b)
+/* --- the brightness --- */
+
+static bool brightness_of(struct brightness *b, const struct image *rgb, struct error *err)
 {
-    double x = *(const double *)a, y = *(const double *)b;
+    *b = (struct brightness){ 0 };
+    if (!image_init(&b->levels, rgb->width_px, rgb->height_px, 1, PIXEL_F32, err)) return false;
+    size_t n = (size_t)rgb->width_px * (size_t)rgb->height_px;
+    const uint8_t *px = rgb->data;
+    for (size_t i = 0; i < n; i++, px += 3)
+        ((float *)b->levels.data)[i] = (0.2126f * px[0] + 0.7152f * px[1] + 0.0722f * px[2]) / 255;
+    return true;
+}
+
+static bool light_of(struct brightness *b, struct error *err)
+{
+    image_release(&b->light);
+    if (!image_init(&b->light, b->levels.width_px, b->levels.height_px, 1, PIXEL_F32, err)) return false;
+    size_t n = (size_t)b->levels.width_px * (size_t)b->levels.height_px;
+    for (size_t i = 0; i < n; i++) ((float *)b->light.data)[i] = linear_from_srgb(fmaxf(((const float *)b->levels.data)[i], 0));
+    return true;
+}
+
+/* --- statistics --- */
+
+static int by_value(const void *a, const void *b)
+{
+    double x = ((const struct weighed *)a)->value, y = ((const struct weighed *)b)->value;
     return (x > y) - (x < y);
 }
 
-/* A quartile of what is asked of the edges; sorts `values`. */
-static double quartile(double *values, size_t n, size_t which)
+/* A quartile of what is asked of the edges; sorts `v`. */
+static double quartile(struct weighed *v, size_t n, size_t which)
 {
-    qsort(values, n, sizeof *values, compare);
-    return n > 0 ? values[which * n / 4] : 0;
-}
-
-/* What the edges agree on; less than chance would make of as many is nothing. */
-static double agreed_sharpening(struct edges *e, double *values, const struct found_edge *found, size_t n)
-{
+    double all = 0, sum = 0;
+    qsort(v, n, sizeof *v, by_value);
+    for (size_t i = 0; i < n; i++) all += v[i].weight;
     for (size_t i = 0; i < n; i++)
-        if (found[i].telling) values[e->telling++] = found[i].sharpening;
-    for (size_t k = 0; k < 3; k++) e->sharpening_quartiles[k] = quartile(values, e->telling, k + 1);
-    double chance = 2 * (e->sharpening_quartiles[2] - e->sharpening_quartiles[0]) / sqrt((double)e->telling);
-    return e->telling >= TELLING_MIN && e->sharpening_quartiles[1] > chance ? e->sharpening_quartiles[1] : 0;
+        if ((sum += v[i].weight) * 4 > all * (double)which) return v[i].value;
+    return 0;
 }
 
-static void sum_up(struct edges *e, double *values, const struct found_edge *found, size_t n)
+static double density(double width_px, const struct found_edge *found, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        double sd = hypot(found[i].error_px, SPREAD * width_px), off = (found[i].sigma_px - width_px) / sd;
+        if (fabs(off) < 6) sum += width_px / sd * exp(-off * off / 2);
+    }
+    return sum;
+}
+
+/* Where the edges crowd, each of them being as wide as its fit's error: what is poorly known counts little there. Nothing is
+ * sharper than the lens makes it, but much is softer: shadows, what is out of focus. So it is the narrowest crowd. */
+static double crowd(const struct found_edge *found, size_t n)
+{
+    double highest = 0, before[2] = { 0 };
+    for (double w = WIDTH_MIN_PX; w < WIDTH_MAX_PX; w *= 1 + WIDTH_STEP) highest = fmax(highest, density(w, found, n));
+    for (double w = WIDTH_MIN_PX; highest > 0 && w < WIDTH_MAX_PX; w *= 1 + WIDTH_STEP) {
+        double now = density(w, found, n);
+        if (before[1] >= SAME * highest && before[1] >= before[0] && before[1] > now) return w / (1 + WIDTH_STEP);
+        before[0] = before[1];
+        before[1] = now;
+    }
+    return 0;
+}
+
+/* --- measuring --- */
+
+static bool fit_lone(struct step *s, const struct brightness *b, const struct candidate *c, double across_px)
+{
+    return step_fit(s, &b->light, c->x, c->y, c->angle, across_px, false) && s->beside <= BESIDE_MAX && isfinite(s->sigma_error_px) &&
+           step_contrast(&b->levels, c->x, c->y, c->angle, across_px) >= CONTRAST_MIN;
+}
+
+static bool fit_edge(struct found_edge *found, const struct brightness *b, const struct candidate *c)
+{
+    struct step s;
+    if (!fit_lone(&s, b, c, NARROW_PX) && !fit_lone(&s, b, c, STEP_WIDE_PX)) return false;
+    *found = (struct found_edge){ *c, s.sigma_px, s.sigma_error_px };
+    return true;
+}
+
+static void sum_up(struct edges *e, struct weighed *values, const struct found_edge *found, size_t n)
 {
     e->count = n;
-    for (size_t i = 0; i < n; i++) values[i] = found[i].low;
-    e->low = quartile(values, n, 2);
-    for (size_t i = 0; i < n; i++) values[i] = found[i].high;
-    e->high = quartile(values, n, 2);
-    for (size_t i = 0; i < n; i++) values[i] = found[i].sigma_px;
+    e->sharp_px = crowd(found, n);
+    for (size_t i = 0; i < n; i++) values[i] = (struct weighed){ found[i].sigma_px, 1 };
     for (size_t k = 0; k < 3; k++) e->sigma_px[k] = quartile(values, n, k + 1);
 }
 
-static bool fit_near_or_wide(struct found_edge *found, const struct image *light, const struct candidate *c, double angle, double sharpening)
+/* What the sharp edges agree on: alone, an edge's own width and sharpening are easily mistaken for each other. Less than chance
+ * would make of as many is nothing. */
+static void find_sharpening(struct edges *e, struct weighed *values, const struct brightness *b, const struct found_edge *found, size_t n)
 {
-    return fit(found, light, c, angle, NARROW_PX, sharpening) || fit(found, light, c, angle, WIDE_PX, isnan(sharpening) ? 0 : sharpening);
+    for (size_t i = 0; i < n; i++) {
+        const struct candidate *c = &found[i].candidate;
+        struct step s;
+        if (fabs(found[i].sigma_px - e->sharp_px) > 2 * hypot(found[i].error_px, SPREAD * e->sharp_px)) continue;
+        if (!step_fit(&s, &b->levels, c->x, c->y, c->angle, NARROW_PX, true) || !(s.sharpening_error < TELLING_ERROR_MAX)) continue;
+        values[e->telling++] = (struct weighed){ s.sharpening, 1 / (0.01 + s.sharpening_error * s.sharpening_error) };
+    }
+    for (size_t k = 0; k < 3; k++) e->sharpening_quartiles[k] = quartile(values, e->telling, k + 1);
+    if (e->telling < TELLING_MIN) return;
+    double chance = 2 * (e->sharpening_quartiles[2] - e->sharpening_quartiles[0]) / sqrt((double)e->telling);
+    if (e->sharpening_quartiles[1] > fmax(chance, SHARPENING_MIN)) e->sharpening = e->sharpening_quartiles[1];
 }
 
-/* In: rgb, of which the light is; NULL: nothing clips, and nothing was sharpened */
-static bool measure(struct edges *edges, const struct image *light, const struct image *rgb, const struct image *only, struct error *err)
+/* In: rgb, of which the brightness is; NULL: nothing clips, and nothing was sharpened */
+static bool measure(struct edges *edges, struct brightness *b, const struct image *rgb, const struct image *only, struct error *err)
 {
-    size_t cells = ((size_t)(light->width_px / CELL_PX) + 1) * ((size_t)(light->height_px / CELL_PX) + 1), n = 0, kept = 0;
-    struct candidate *candidates = malloc(cells * sizeof *candidates);
-    struct found_edge *found = malloc(EDGES_MAX * sizeof *found);
-    double *values = malloc(EDGES_MAX * sizeof *values);
-    bool ok = (candidates && found && values) || error_set(err, ERR_MEMORY, "no memory for the edges of a picture");
+    struct candidates candidates = { 0 };
+    struct found_edge *found = calloc(EDGES_MAX, sizeof *found);
+    struct weighed *values = malloc(EDGES_MAX * sizeof *values);
+    bool ok = ((found && values) || error_set(err, ERR_MEMORY, "no memory for the edges of a picture")) &&
+              find_candidates(&candidates, &b->levels, rgb, only, err);
     if (ok) {
-        size_t count = find_candidates(candidates, light, only), fits = 0;
-        for (size_t i = 0; i < count && fits < EDGES_MAX; i++) {
-            const struct candidate *c = &candidates[i];
-            double angle;
-            if (!across(&angle, light, c) || (rgb && clips(rgb, c))) continue;
-            fits++;
-            n += fit_near_or_wide(&found[n], light, c, angle, rgb ? NAN : 0);
+        struct edges e = { 0 };
+        size_t n = 0, kept = 0;
+        for (size_t i = 0; i < candidates.count; i++) n += fit_edge(&found[n], b, &candidates.list[i]);
+        sum_up(&e, values, found, n);
+        if (rgb) find_sharpening(&e, values, b, found, n);
+        if (e.sharpening > 0) {
+            ok = sharpening_take_back(&b->levels, e.sharpening, err) && light_of(b, err);
+            for (size_t i = 0; ok && i < n; i++) {
+                struct candidate c = found[i].candidate;
+                kept += fit_edge(&found[kept], b, &c);
+            }
+            if (ok) sum_up(&e, values, found, kept);
         }
-        *edges = (struct edges){ 0 };
-        if (rgb) edges->sharpening = agreed_sharpening(edges, values, found, n);
-        /* Once more, now that this is known: alone, an edge's own width and sharpening are easily mistaken for each other. */
-        for (size_t i = 0; rgb && i < n; i++) {
-            struct found_edge again = found[i];
-            if (fit_near_or_wide(&again, light, &found[i].candidate, found[i].angle, edges->sharpening)) found[kept++] = again;
-        }
-        sum_up(edges, values, found, rgb ? kept : n);
+        if (ok) *edges = e;
     }
-    free(candidates);
+    free(candidates.list);
     free(found);
     free(values);
     return ok;
@@ -267,21 +225,53 @@ static bool measure(struct edges *edges, const struct image *light, const struct
 
 bool edges_measure(struct edges *edges, const struct image *rgb, const struct image *only, struct error *err)
 {
-    struct image light = { 0 };
-    bool ok = brightness_of(&light, rgb, err) && measure(edges, &light, rgb, only, err);
-    image_release(&light);
+    struct brightness b;
+    bool ok = brightness_of(&b, rgb, err) && light_of(&b, err) && measure(edges, &b, rgb, only, err);
+    brightness_release(&b);
     return ok;
 }
 
-bool edges_of_layer(struct edges *edges, const struct image *object, double low, double high, struct error *err)
+bool edges_of_layer(struct edges *edges, const struct image *object, struct error *err)
 {
-    struct image light = { 0 };
-    if (!image_init(&light, object->width_px, object->height_px, 1, PIXEL_F32, err)) return false;
-    size_t n = (size_t)light.width_px * (size_t)light.height_px;
-    const float dark = linear_from_srgb((float)low), bright = linear_from_srgb((float)high);
-    const float *px = object->data;
-    for (size_t i = 0; i < n; i++) ((float *)light.data)[i] = srgb_from_linear(dark + (bright - dark) * px[4 * i + 3]);
-    bool ok = measure(edges, &light, NULL, NULL, err);
-    image_release(&light);
+    struct brightness b = { 0 };
+    if (!image_init(&b.light, object->width_px, object->height_px, 1, PIXEL_F32, err)) return false;
+    size_t n = (size_t)object->width_px * (size_t)object->height_px;
+    for (size_t i = 0; i < n; i++) ((float *)b.light.data)[i] = ((const float *)object->data)[4 * i + 3];
+    bool ok = image_init(&b.levels, object->width_px, object->height_px, 1, PIXEL_F32, err);
+    if (ok) {
+        memcpy(b.levels.data, b.light.data, image_size(&b.light));
+        ok = measure(edges, &b, NULL, NULL, err);
+    }
+    brightness_release(&b);
+    return ok;
+}
+
+bool edges_compare(double *ratio, size_t *count, const struct image *rgb, const struct image *of, const struct image *only, struct error *err)
+{
+    struct brightness ours = { 0 }, theirs = { 0 };
+    struct candidates candidates = { 0 };
+    struct weighed *ratios = malloc(EDGES_MAX * sizeof *ratios);
+    bool ok = (ratios || error_set(err, ERR_MEMORY, "no memory for the edges of a picture")) && brightness_of(&ours, rgb, err) &&
+              light_of(&ours, err) && brightness_of(&theirs, of, err) && light_of(&theirs, err) &&
+              find_candidates(&candidates, &theirs.levels, of, only, err);
+    size_t n = 0;
+    for (size_t i = 0; ok && i < candidates.count; i++) {
+        const struct candidate *c = &candidates.list[i];
+        struct step a, b;
+        if (clips(rgb, c) || !step_fit(&a, &ours.light, c->x, c->y, c->angle, NARROW_PX, false) ||
+            !step_fit(&b, &theirs.light, c->x, c->y, c->angle, NARROW_PX, false) ||
+            step_contrast(&theirs.levels, c->x, c->y, c->angle, NARROW_PX) < CONTRAST_MIN)
+            continue;
+        double error = hypot(a.sigma_error_px / a.sigma_px, b.sigma_error_px / b.sigma_px);
+        if (error < PAIR_ERROR_MAX) ratios[n++] = (struct weighed){ a.sigma_px / b.sigma_px, 1 / (SPREAD * SPREAD + error * error) };
+    }
+    if (ok) {
+        *count = n;
+        *ratio = n > 0 ? quartile(ratios, n, 2) : NAN;
+    }
+    free(ratios);
+    free(candidates.list);
+    brightness_release(&ours);
+    brightness_release(&theirs);
     return ok;
 }

@@ -44,18 +44,17 @@ static bool take_compression(struct hand *h, const struct manifest *m, const cha
 /* What the area of a pixel leaves of an edge's width. */
 static double besides_pixel(double sigma_px) { return sqrt(fmax(0, sigma_px * sigma_px - 1.0 / 12)); }
 
-/* So much that the layer's outlines become as wide as the photograph's sharp edges: those of things, and not of
- * shadows or of what is out of focus. */
+/* So much that the layer's outlines become as wide as the photograph's sharp edges. */
 static bool take_softness(struct hand *h, const struct manifest *m, const struct image *rgb, const struct image *object, struct error *err)
 {
     if ((m->softness_auto || m->sharpening_auto) && !edges_measure(&h->edges, rgb, NULL, err)) return false;
     const struct edges *e = &h->edges;
     if (m->sharpening_auto) h->sharpening = e->sharpening;
     if (!m->softness_auto || e->count < EDGES_MIN) return true;
-    h->hider_px = fmin(besides_pixel(e->sigma_px[0]), MANIFEST_SOFTNESS_AUTO_MAX_PX);
-    if (!edges_of_layer(&h->layer_edges, object, e->low, e->high, err)) return false;
-    double own_px = h->layer_edges.count < EDGES_MIN ? LAYER_EDGE_PX : h->layer_edges.sigma_px[0];
-    double rest_px2 = e->sigma_px[0] * e->sigma_px[0] - own_px * own_px;
+    h->hider_px = fmin(besides_pixel(e->sharp_px), MANIFEST_SOFTNESS_AUTO_MAX_PX);
+    if (!edges_of_layer(&h->layer_edges, object, err)) return false;
+    double own_px = h->layer_edges.count < EDGES_MIN ? LAYER_EDGE_PX : h->layer_edges.sharp_px;
+    double rest_px2 = e->sharp_px * e->sharp_px - own_px * own_px;
     if (rest_px2 > 0) h->softness_px = fmin(sqrt(rest_px2), MANIFEST_SOFTNESS_AUTO_MAX_PX);
     else h->too_soft_px2 = fmin(-rest_px2, SOFTNESS_TAKEN_BACK_MAX_PX2);
     return true;

@@ -31,8 +31,10 @@ static json_t *softness(const struct hand *h, const struct manifest *m)
                           "px", number(h->softness_px), "taken_back_px2", number(h->too_soft_px2), "hider_px", number(h->hider_px));
     if (m->softness_auto) {
         json_object_set_new(o, "edges", json_integer((json_int_t)h->edges.count));
+        json_object_set_new(o, "edge_sigma_px", number(h->edges.sharp_px));
         json_object_set_new(o, "edge_sigma_px_quartiles", numbers(h->edges.sigma_px, 3));
         json_object_set_new(o, "rendered_edges", json_integer((json_int_t)h->layer_edges.count));
+        json_object_set_new(o, "rendered_edge_sigma_px", number(h->layer_edges.sharp_px));
         json_object_set_new(o, "rendered_edge_sigma_px_quartiles", numbers(h->layer_edges.sigma_px, 3));
     }
     return o;

@@ -30,6 +30,7 @@ post_libpost_a_SOURCES = \
   %D%/softness.c %D%/softness.h \
   %D%/spread.c %D%/spread.h \
   %D%/stats.c %D%/stats.h %D%/stats_text.c \
+  %D%/step.c %D%/step.h \
   %D%/transfer.h %D%/transfer_caught.c \
   %D%/transfer_alpha.c %D%/transfer_layers.c %D%/transfer_ratio.c %D%/transfer_threshold.c \
   %D%/vignette.c %D%/vignette.h \

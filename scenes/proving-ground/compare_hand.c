@@ -70,18 +70,15 @@ static void compare_grain(struct comparison *to, const struct picture_input *in)
 static bool compare_edges(struct comparison *to, const struct picture_input *in, struct error *err)
 {
     struct image near;
-    struct edges truth, result;
+    size_t edges;
     if (!image_init(&near, in->owner.width_px, in->owner.height_px, 1, PIXEL_U8, err)) return false;
     for (int y = OUTLINE_PX; y < near.height_px - OUTLINE_PX; y++)
         for (int x = OUTLINE_PX; x < near.width_px - OUTLINE_PX; x++)
             for (int k = 0; k < (2 * OUTLINE_PX + 1) * (2 * OUTLINE_PX + 1); k++)
                 if (*image_u8(&in->owner, x + k % (2 * OUTLINE_PX + 1) - OUTLINE_PX, y + k / (2 * OUTLINE_PX + 1) - OUTLINE_PX))
                     *image_u8(&near, x, y) = 1;
-    bool ok = edges_measure(&truth, &in->truth, &near, err) && edges_measure(&result, &in->result, &near, err);
-    if (ok) {
-        to->edges = (double)truth.count;
-        if (truth.count > 0 && result.count > 0) to->edge_width = result.sigma_px[1] / truth.sigma_px[1];
-    }
+    bool ok = edges_compare(&to->edge_width, &edges, &in->result, &in->truth, &near, err);
+    if (ok) to->edges = (double)edges;
     image_release(&near);
     return ok;
 }

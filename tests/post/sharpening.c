@@ -3,6 +3,8 @@
 #include "tests/post/taken.h"
 #include "tests/tap.h"
 
+#include <string.h>
+
 #define W 60
 #define H 40
 
@@ -39,6 +41,26 @@ static double most_off(const struct image *a, const struct image *b, int x0, int
     return most;
 }
 
+/* Brightness, sharpened and taken back. */
+static void check_taken_back(const struct image *picture)
+{
+    struct error err = ERROR_NONE;
+    for (int i = 0; i < 2; i++) {
+        const double amount = i ? 1.5 : 0.4;
+        struct image sharp = floats(3), one = floats(1);
+        memcpy(sharp.data, picture->data, image_size(picture));
+        camera_sharpens(&sharp, amount);
+        for (size_t k = 0; k < (size_t)W * H; k++) ((float *)one.data)[k] = ((float *)sharp.data)[3 * k];
+        OK(sharpening_take_back(&one, amount, &err), "a sharpening of %g is taken back", amount);
+        double most = 0;
+        for (int y = 4; y < H - 4; y++)
+            for (int x = 4; x < W - 4; x++) most = fmax(most, fabs((double)*image_f32(&one, x, y) - (double)image_f32(picture, x, y)[0]));
+        NEAR(most, 0, 1.5, "and what was before is there again");
+        image_release(&sharp);
+        image_release(&one);
+    }
+}
+
 /* What the camera's own picture would be: of the place and the thing, sharpened together. */
 int main(void)
 {
@@ -57,6 +79,7 @@ int main(void)
             float a = ((float *)cover.data)[i];
             ((float *)got.data)[3 * i + c] = (1 - a) * ((float *)photograph.data)[3 * i + c] + a * 40;
         }
+    check_taken_back(&with);
     double plain = most_off(&got, &truth, 24, 36, 4, 36);
     if (!OK(sharpening_add(&got, &photograph, &cover, 0.5, &err), "what is put in is sharpened")) return tap_done();
     OK(plain > 8 && most_off(&got, &truth, 24, 36, 4, 36) < 1, "as if the camera had seen it: off by %.1f, without by %.1f",

@@ -99,7 +99,7 @@ static bool print_part(const struct image *rgb, const char *what, struct error *
     if (!what) memset(only.data, 1, image_size(&only));
     else if (!take_part(&only, what, err)) return false;
     if (!edges_measure(&e, rgb, &only, err)) return false;
-    printf("%s\n  edges %zu  width %.2f %.2f %.2f px  sharpened by %.2f (%zu: %.2f %.2f %.2f)\n", what ? what : "all", e.count, e.sigma_px[0],
+    printf("%s\n  edges %zu  sharp %.2f px, quartiles %.2f %.2f %.2f px  sharpened by %.2f (%zu: %.2f %.2f %.2f)\n", what ? what : "all", e.count, e.sharp_px, e.sigma_px[0],
            e.sigma_px[1], e.sigma_px[2], e.sharpening, e.telling, e.sharpening_quartiles[0], e.sharpening_quartiles[1], e.sharpening_quartiles[2]);
     print_grain(rgb, &only);
     image_release(&only);
