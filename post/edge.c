@@ -12,7 +12,8 @@
 #define BORDER_PX 10
 #define NARROW_PX 4.0         /* half the way across that is looked at; other things are near */
 #define CONTRAST_MIN 0.07     /* between the two sides, in levels, 1 is white */
-#define BESIDE_MAX 0.06       /* of a step's height: other things are too near */
+#define MISFIT_MAX 0.07       /* root of the mean square, of a step's height */
+#define BESIDE_MAX 0.06       /* too: other things are too near */
 #define SPREAD 0.04           /* relative standard deviation of sharp edges' widths in one photograph: by place and colour */
 #define SAME 0.7              /* a maximum as high is no chance beside a higher one */
 #define WIDTH_MIN_PX 0.2
@@ -21,7 +22,9 @@
 #define TELLING_ERROR_MAX 0.25 /* of a fit's sharpening, to tell */
 #define TELLING_MIN 8         /* edges, to tell how much they were sharpened */
 #define SHARPENING_MIN 0.15   /* less is not seen, and JPEG's blocks look like it */
-#define PAIR_ERROR_MAX 0.15   /* relative, of a width that is compared */
+#define PAIR_CELL_PX 6        /* of pictures that are compared, where what lies beside an edge is the same: */
+#define PAIR_MISFIT_MAX 0.12
+#define PAIR_ERROR_MAX 0.3    /* relative, of the width */
 
 struct candidate { float strength; int x, y; double angle; };
 struct candidates { struct candidate *list; size_t count; };
@@ -59,17 +62,18 @@ static int stronger(const void *a, const void *b)
 }
 
 /* The strongest change of light of each cell, if it is straight. In: rgb, of which it is; NULL: nothing clips */
-static bool find_candidates(struct candidates *to, const struct image *levels, const struct image *rgb, const struct image *only, struct error *err)
+static bool find_candidates(struct candidates *to, const struct image *levels, const struct image *rgb, const struct image *only,
+                            int cell_px, struct error *err)
 {
-    size_t cells = ((size_t)(levels->width_px / CELL_PX) + 1) * ((size_t)(levels->height_px / CELL_PX) + 1), n = 0, kept = 0;
+    size_t cells = ((size_t)(levels->width_px / cell_px) + 1) * ((size_t)(levels->height_px / cell_px) + 1), n = 0, kept = 0;
     struct candidate *found = malloc(cells * sizeof *found);
     if (!found) return error_set(err, ERR_MEMORY, "no memory for the edges of a picture");
     int right = levels->width_px - BORDER_PX, bottom = levels->height_px - BORDER_PX;
-    for (int y0 = BORDER_PX; y0 < bottom; y0 += CELL_PX)
-        for (int x0 = BORDER_PX; x0 < right; x0 += CELL_PX) {
+    for (int y0 = BORDER_PX; y0 < bottom; y0 += cell_px)
+        for (int x0 = BORDER_PX; x0 < right; x0 += cell_px) {
             struct candidate best = { .strength = 0 };
-            for (int y = y0; y < y0 + CELL_PX && y < bottom; y++)
-                for (int x = x0; x < x0 + CELL_PX && x < right; x++) {
+            for (int y = y0; y < y0 + cell_px && y < bottom; y++)
+                for (int x = x0; x < x0 + cell_px && x < right; x++) {
                     if (only && !*image_u8(only, x, y)) continue;
                     const float *p = image_f32(levels, x, y);
                     float gx = p[1] - p[-1], gy = p[levels->width_px] - p[-levels->width_px], strength = gx * gx + gy * gy;
@@ -156,7 +160,8 @@ static double crowd(const struct found_edge *found, size_t n)
 
 static bool fit_lone(struct step *s, const struct brightness *b, const struct candidate *c, double across_px)
 {
-    return step_fit(s, &b->light, c->x, c->y, c->angle, across_px, false) && s->beside <= BESIDE_MAX && isfinite(s->sigma_error_px) &&
+    return step_fit(s, &b->light, c->x, c->y, c->angle, across_px, false) && s->misfit <= MISFIT_MAX && s->beside <= BESIDE_MAX &&
+           isfinite(s->sigma_error_px) &&
            step_contrast(&b->levels, c->x, c->y, c->angle, across_px) >= CONTRAST_MIN;
 }
 
@@ -184,7 +189,8 @@ static void find_sharpening(struct edges *e, struct weighed *values, const struc
         const struct candidate *c = &found[i].candidate;
         struct step s;
         if (fabs(found[i].sigma_px - e->sharp_px) > 2 * hypot(found[i].error_px, SPREAD * e->sharp_px)) continue;
-        if (!step_fit(&s, &b->levels, c->x, c->y, c->angle, NARROW_PX, true) || !(s.sharpening_error < TELLING_ERROR_MAX)) continue;
+        if (!step_fit(&s, &b->levels, c->x, c->y, c->angle, NARROW_PX, true) || s.misfit > MISFIT_MAX) continue;
+        if (!(s.sharpening_error < TELLING_ERROR_MAX)) continue;
         values[e->telling++] = (struct weighed){ s.sharpening, 1 / (0.01 + s.sharpening_error * s.sharpening_error) };
     }
     for (size_t k = 0; k < 3; k++) e->sharpening_quartiles[k] = quartile(values, e->telling, k + 1);
@@ -200,7 +206,7 @@ static bool measure(struct edges *edges, struct brightness *b, const struct imag
     struct found_edge *found = calloc(EDGES_MAX, sizeof *found);
     struct weighed *values = malloc(EDGES_MAX * sizeof *values);
     bool ok = ((found && values) || error_set(err, ERR_MEMORY, "no memory for the edges of a picture")) &&
-              find_candidates(&candidates, &b->levels, rgb, only, err);
+              find_candidates(&candidates, &b->levels, rgb, only, CELL_PX, err);
     if (ok) {
         struct edges e = { 0 };
         size_t n = 0, kept = 0;
@@ -246,22 +252,26 @@ bool edges_of_layer(struct edges *edges, const struct image *object, struct erro
     return ok;
 }
 
-bool edges_compare(double *ratio, size_t *count, const struct image *rgb, const struct image *of, const struct image *only, struct error *err)
+static bool fit_paired(struct step *s, const struct brightness *b, const struct candidate *c)
+{
+    return step_fit(s, &b->light, c->x, c->y, c->angle, NARROW_PX, false) && s->misfit <= PAIR_MISFIT_MAX;
+}
+
+bool edges_compare(double *ratio, size_t *count, const struct image *rgb, const struct image *of, const struct image *only,
+                   struct error *err)
 {
     struct brightness ours = { 0 }, theirs = { 0 };
     struct candidates candidates = { 0 };
     struct weighed *ratios = malloc(EDGES_MAX * sizeof *ratios);
     bool ok = (ratios || error_set(err, ERR_MEMORY, "no memory for the edges of a picture")) && brightness_of(&ours, rgb, err) &&
               light_of(&ours, err) && brightness_of(&theirs, of, err) && light_of(&theirs, err) &&
-              find_candidates(&candidates, &theirs.levels, of, only, err);
+              find_candidates(&candidates, &theirs.levels, of, only, PAIR_CELL_PX, err);
     size_t n = 0;
     for (size_t i = 0; ok && i < candidates.count; i++) {
         const struct candidate *c = &candidates.list[i];
         struct step a, b;
-        if (clips(rgb, c) || !step_fit(&a, &ours.light, c->x, c->y, c->angle, NARROW_PX, false) ||
-            !step_fit(&b, &theirs.light, c->x, c->y, c->angle, NARROW_PX, false) ||
-            step_contrast(&theirs.levels, c->x, c->y, c->angle, NARROW_PX) < CONTRAST_MIN)
-            continue;
+        if (clips(rgb, c) || step_contrast(&theirs.levels, c->x, c->y, c->angle, NARROW_PX) < CONTRAST_MIN) continue;
+        if (!fit_paired(&a, &ours, c) || !fit_paired(&b, &theirs, c)) continue;
         double error = hypot(a.sigma_error_px / a.sigma_px, b.sigma_error_px / b.sigma_px);
         if (error < PAIR_ERROR_MAX) ratios[n++] = (struct weighed){ a.sigma_px / b.sigma_px, 1 / (SPREAD * SPREAD + error * error) };
     }

@@ -11,7 +11,6 @@
 #define REACH_PX 13           /* of the longest window */
 #define POINTS_MAX ((2 * REACH_PX + 1) * (2 * REACH_PX + 1))
 #define STEP_MIN 0.01
-#define MISFIT_MAX 0.07       /* root of the mean square, in units of the step */
 #define STRAIGHT_MIN 0.8      /* 1: light changes in one direction only */
 #define SHARPENING_SPREAD 0.5 /* what is known of it beforehand: a standard deviation, */
 #define NOISE 0.02            /* and that of a pixel, in units of the step */
@@ -236,11 +235,12 @@ bool step_fit(struct step *step, const struct image *light, int x, int y, double
     if (!converge(&m, &points, angle)) return false;
     compare_with(&n, &points, &m);
     /* Both sides must be in view for a blur this wide. */
-    if (sqrt(n.misfit / n.points) > MISFIT_MAX * fabs(m.step) || 2.2 * m.sigma + fabs(m.at) >= across_px) return false;
+    if (2.2 * m.sigma + fabs(m.at) >= across_px) return false;
     *step = (struct step){
         .low = m.low, .high = m.low + m.step, .at_px = m.at, .angle = m.angle, .sigma_px = m.sigma, .sharpening = m.sharpening,
         .sigma_error_px = error_of(SIGMA, &points, &m, &n),
         .sharpening_error = sharpened ? error_of(SHARPENING, &points, &m, &n) : INFINITY, .beside = light_beside(&points, &m),
+        .misfit = sqrt(n.misfit / n.points) / fabs(m.step),
     };
     return true;
 }

@@ -14,6 +14,7 @@
 struct step {
     double low, high, at_px, angle, sigma_px, sharpening;
     double sigma_error_px, sharpening_error; /* standard deviations, of what differs from the model as a function of t */
+    double misfit;                           /* root of the mean square, in the step's height */
     double beside;                           /* by how much the light just beyond is other than the step's, in its height */
 };
 
