@@ -86,7 +86,8 @@ static bool write_sky(struct pass_surroundings *out, const double color_gain[3],
     struct vec3 from = among_entities(f), eye = f->shot->world_from_camera.translation;
     double ground = f->stage->mesh ? from.z - BODY_M : plane_height(&f->scene->ground, eye.x, eye.y);
     struct panorama_input in = {
-        .seen = seen, .light = f->context->light, .from_m = from, .height_m = eye.z - ground, .place = f->stage->mesh,
+        .seen = seen, .light = f->context->light, .from_m = from, .height_m = eye.z - ground,
+        .told = !f->scene->skyline.assumed, .place = f->stage->mesh,
         .place_depth = &f->labels.place_depth, .color_gain = { color_gain[0], color_gain[1], color_gain[2] },
     };
     struct panorama panorama;

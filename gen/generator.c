@@ -2,6 +2,7 @@
 
 #include "gen/estimate/estimate.h"
 #include "gen/light/map_sun.h"
+#include "gen/light/skyline.h"
 #include "gen/render/passes.h"
 #include "lib/file.h"
 #include "lib/image.h"
@@ -128,10 +129,11 @@ static bool estimate_light(struct generator *g, struct error *err)
     return true;
 }
 
-static bool warn_of_map_sun(struct generator *g, struct error *err)
+static bool warn_of_sun(struct generator *g, struct error *err)
 {
     char *text;
-    return map_sun_doubt(&text, &g->light, g->scene, err) && (!text || stage_warn(g->stage, text, err));
+    return map_sun_doubt(&text, &g->light, g->scene, err) && (!text || stage_warn(g->stage, text, err)) &&
+           skyline_doubt(&text, &g->light, g->scene, err) && (!text || stage_warn(g->stage, text, err));
 }
 
 bool generator_create(struct generator **generator, const struct scene *scene, const char *out_folder,
@@ -147,7 +149,7 @@ bool generator_create(struct generator **generator, const struct scene *scene, c
     ok = ok && light_create(&g->light, g->scene, err) && sky_map_write(g->sky_map, out_folder, &g->light, err);
     if (ok) g->input_hash = hash_settings(FILE_HASH_SEED, g);
     ok = ok && file_hash(&g->input_hash, rules, err) && (g->stage || stage_create(&g->stage, g->scene, g->rules, err)) &&
-         warn_of_map_sun(g, err) && trace_models(g, err);
+         warn_of_sun(g, err) && trace_models(g, err);
     if (!ok) {
         generator_destroy(g);
         return false;

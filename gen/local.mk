@@ -32,6 +32,7 @@ gen_libgen_a_SOURCES = \
   %D%/light/seen.c %D%/light/seen.h \
   %D%/light/sky_form.c %D%/light/sky_form.h \
   %D%/light/sky_image.h \
+  %D%/light/skyline.c %D%/light/skyline.h \
   %D%/light/standing.c %D%/light/standing.h \
   %D%/light/sun.c %D%/light/sun.h \
   %D%/light/unhidden.c %D%/light/unhidden.h \

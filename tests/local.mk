@@ -171,6 +171,11 @@ tests_gen_measured_sky_test_SOURCES = %D%/gen/measured_sky.c %D%/tap.h
 nodist_EXTRA_tests_gen_measured_sky_test_SOURCES = dummy.cxx
 tests_gen_measured_sky_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/skyline.test
+tests_gen_skyline_test_SOURCES = %D%/gen/skyline.c %D%/tap.h
+nodist_EXTRA_tests_gen_skyline_test_SOURCES = dummy.cxx
+tests_gen_skyline_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/wet_ground.test
 tests_gen_wet_ground_test_SOURCES = %D%/gen/wet_ground.c %D%/gen/povray.h %D%/gen/shade.h %D%/gen/solid.h %D%/tap.h
 nodist_EXTRA_tests_gen_wet_ground_test_SOURCES = dummy.cxx

@@ -4,6 +4,7 @@
 #include "gen/light/measured_sky.h"
 #include "gen/light/sky_form.h"
 #include "gen/light/sky_image.h"
+#include "gen/light/skyline.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -120,25 +121,25 @@ static void fill_sunny(struct light *light, const struct scene *scene, const str
     }
     if (cie) take_amount(daylight.sky, cie->diffuse * daylight_extraterrestrial_lx() * light->sun_direction.z);
     struct clear_form form = clear_form(light->sun_direction, cie && cie->clouded ? CLOUDED_TURBIDITY : turbidity);
-    for (int row = 0; row < light->sky.height_px / 2; row++)
-        for (int column = 0; column < light->sky.width_px; column++) {
-            struct vec3 d = sky_direction(&light->sky, column, row);
+    for (int row = 0; row < light->open_sky.height_px / 2; row++)
+        for (int column = 0; column < light->open_sky.width_px; column++) {
+            struct vec3 d = sky_direction(&light->open_sky, column, row);
             double rgb[3], luminance = cie ? cie_sky_luminance(cie, form.sun, d) : clear_form_luminance(&form, d);
             clear_form_color(rgb, &form, d);
-            for (int c = 0; c < 3; c++) image_f32(&light->sky, column, row)[c] = (float)(luminance * rgb[c]);
+            for (int c = 0; c < 3; c++) image_f32(&light->open_sky, column, row)[c] = (float)(luminance * rgb[c]);
         }
-    scale_sky(&light->sky, daylight.sky);
+    scale_sky(&light->open_sky, daylight.sky);
     for (int c = 0; c < 3; c++) light->sun_color[c] = daylight.sun[c] / M_PI;
 }
 
 /* Clouds are white. In: cie: or NULL for the traditional overcast sky */
 static void fill_clouds(struct light *light, const struct cie_sky *cie)
 {
-    for (int row = 0; row < light->sky.height_px / 2; row++)
-        for (int column = 0; column < light->sky.width_px; column++) {
-            struct vec3 d = sky_direction(&light->sky, column, row);
+    for (int row = 0; row < light->open_sky.height_px / 2; row++)
+        for (int column = 0; column < light->open_sky.width_px; column++) {
+            struct vec3 d = sky_direction(&light->open_sky, column, row);
             double luminance = cie ? cie_sky_luminance(cie, light->sun_direction, d) : overcast_luminance(d);
-            for (int c = 0; c < 3; c++) image_f32(&light->sky, column, row)[c] = (float)luminance;
+            for (int c = 0; c < 3; c++) image_f32(&light->open_sky, column, row)[c] = (float)luminance;
         }
 }
 
@@ -146,7 +147,7 @@ static bool fill_measured(struct light *light, const struct scene *scene, struct
 {
     struct measured_sky measured;
     if (!measured_sky_read(&measured, scene, light->sun_direction, err)) return false;
-    light->sky = measured.sky;
+    light->open_sky = measured.sky;
     light->has_sun = measured.has_sun;
     light->sun_direction = measured.sun_direction;
     for (int c = 0; c < 3; c++) light->sun_color[c] = measured.sun_color[c];
@@ -157,49 +158,72 @@ static bool fill(struct light *light, const struct scene *scene, struct error *e
 {
     if (scene->sky == SKY_MAP) return fill_measured(light, scene, err);
     const struct cie_sky *cie = scene->sky == SKY_CIE ? cie_sky(scene->cie_type) : NULL;
-    if (!image_init(&light->sky, SKY_WIDTH, SKY_HEIGHT, 3, PIXEL_F32, err)) return false;
+    if (!image_init(&light->open_sky, SKY_WIDTH, SKY_HEIGHT, 3, PIXEL_F32, err)) return false;
     light->has_sun = scene->sky == SKY_CLEAR || (cie && cie->shows_sun);
     if (light->has_sun) fill_sunny(light, scene, cie);
     else fill_clouds(light, cie);
     return true;
 }
 
-/* The light in the open stays as it is; of it, so much is the sky's, and the rest the sun's. */
-static void share_out(struct light *light, const double sky_share[3])
+static void in_the_open(double rgb[3], const struct light *light)
 {
-    double sky[3];
+    level_irradiance(rgb, &light->open_sky);
+    for (int c = 0; c < 3; c++) rgb[c] += light->has_sun ? light->sun_color[c] * light->sun_direction.z : 0;
+}
+
+/* On the ground, with what stands around, in the sun or without one. */
+static void on_the_ground(double rgb[3], const struct light *light, const struct scene *scene, bool sun)
+{
+    struct light lit = *light;
+    lit.has_sun = sun;
+    skyline_raise(&lit, &scene->skyline, scene->ground_albedo);
+    memcpy(rgb, lit.irradiance, sizeof lit.irradiance);
+}
+
+/* The light in the open stays as it is. On the ground so much is not the sun's own: the sky's, and what stands around gives. */
+static bool share_out(struct light *light, const struct scene *scene, struct error *err)
+{
+    double open[3], sky_open[3], by_sky[3], by_both[3];
+    in_the_open(open, light);
+    level_irradiance(sky_open, &light->open_sky);
+    on_the_ground(by_sky, light, scene, false);
+    on_the_ground(by_both, light, scene, true);
     for (int c = 0; c < 3; c++) {
-        sky[c] = sky_share[c] * light->irradiance[c] * M_PI;
-        light->sun_color[c] = (1 - sky_share[c]) * light->irradiance[c] / light->sun_direction.z;
+        double share = scene->sky_share[c], direct = light->sun_color[c] * light->sun_direction.z, sent_back = by_both[c] - by_sky[c] - direct;
+        /* share = (sky by_sky + sun sent_back) / (sky by_sky + sun sent_back + sun direct) */
+        double sky_of_sun = (share / (1 - share) * direct - sent_back) / by_sky[c];
+        if (!(sky_of_sun > 0))
+            return error_at(err, ERR_INPUT, scene->path, scene->skyline.source.line, scene->skyline.source.column,
+                            "surroundings: what stands around sends more light back than the shade has: lower skyline_deg or albedo");
+        double sun = open[c] / (sky_of_sun * sky_open[c] + direct);
+        light->sun_color[c] *= sun;
+        sky_open[c] *= sun * sky_of_sun * M_PI;
     }
-    scale_sky(&light->sky, sky);
+    scale_sky(&light->open_sky, sky_open);
+    return true;
 }
 
 bool light_create(struct light *light, const struct scene *scene, struct error *err)
 {
     struct light made = { 0 };
     bool directed = scene->sun == SUN_BY_TIME || scene->sun == SUN_GIVEN;
-    if ((directed && !light_sun_direction(&made.sun_direction, scene, err)) || !fill(&made, scene, err)) return false;
-    struct image *sky = &made.sky;
-    level_irradiance(made.irradiance, sky);
-    for (int c = 0; c < 3; c++) {
-        made.sun_color[c] *= scene->sun_scale;
-        made.irradiance[c] += made.sun_color[c] * made.sun_direction.z;
+    if (directed && !light_sun_direction(&made.sun_direction, scene, err)) return false;
+    bool ok = fill(&made, scene, err) &&
+              image_init(&made.sky, made.open_sky.width_px, made.open_sky.height_px, 3, PIXEL_F32, err);
+    if (ok && made.has_sun && scene->has_sky_share) ok = share_out(&made, scene, err);
+    else for (int c = 0; c < 3; c++) made.sun_color[c] *= scene->sun_scale;
+    if (!ok) {
+        light_release(&made);
+        return false;
     }
-
-    if (made.has_sun && scene->has_sky_share) share_out(&made, scene->sky_share);
-
-    double scale = 1 / luminance_of(made.irradiance);
-    for (int c = 0; c < 3; c++) {
-        made.irradiance[c] *= scale;
-        made.sun_color[c] *= scale;
-    }
-    for (int row = 0; row < sky->height_px; row++)
-        for (int column = 0; column < sky->width_px; column++)
-            for (int c = 0; c < 3; c++) {
-                float *value = &image_f32(sky, column, row)[c];
-                *value = (float)(row < sky->height_px / 2 ? (double)*value * scale : scene->ground_albedo[c] * made.irradiance[c]);
-            }
+    double open[3];
+    in_the_open(open, &made);
+    double scale = 1 / luminance_of(open);
+    for (int c = 0; c < 3; c++) made.sun_color[c] *= scale;
+    for (int row = 0; row < made.sky.height_px / 2; row++)
+        for (int column = 0; column < made.sky.width_px; column++)
+            for (int c = 0; c < 3; c++) image_f32(&made.open_sky, column, row)[c] *= (float)scale;
+    skyline_raise(&made, &scene->skyline, scene->ground_albedo);
     *light = made;
     return true;
 }
@@ -207,6 +231,7 @@ bool light_create(struct light *light, const struct scene *scene, struct error *
 void light_release(struct light *light)
 {
     image_release(&light->sky);
+    image_release(&light->open_sky);
 }
 
 void light_sample_sky(struct sky_light *lights, size_t n, const struct light *light)

@@ -94,7 +94,7 @@ static void turned_light(double gain[3], const struct wall *wall, double aside_r
     for (int c = 0; c < 3; c++) gain[c] = here[c] / fmax(there[c], 1e-6);
 }
 
-/* The light's sky between the middles of its pixels; the ground's half is not mixed in. */
+/* A sky between the middles of its pixels; the ground's half is not mixed in. */
 static void sky_between(double rgb[3], const struct image *sky, struct vec3 d)
 {
     double turn = atan2(d.y, d.x) / (2 * M_PI), fx = (turn - floor(turn)) * sky->width_px - 0.5;
@@ -113,25 +113,35 @@ static bool like_sky(const double shown[3], const double sky[3])
     return shown[1] > 0.5 * sky[1] && shown[2] * shown[2] * sky[0] > shown[0] * shown[0] * sky[2];
 }
 
-/* Mix what the picture shows at a pixel position into rgb. Out: known  0 where something is before it.
- * sky  NULL: it is below the horizon; clipped light is at least as bright as the sky behind it
- * gain  of what is not sky; NULL: 1 */
-static double mix_picture(double rgb[3], double *known, const struct seen *seen, struct vec2 q, const double *sky, const double *gain)
+/* A look in a direction. */
+struct sight {
+    double rgb[3];   /* radiance */
+    double known;    /* 0: something hides it */
+    bool open;       /* in a column, from the horizon upward: the picture showed the sky, and what stands around ends below */
+};
+
+/* Mix what the picture shows at a pixel position in.
+ * In: sky  the open sky there, NULL: it is below the horizon; clipped light is at least as bright as the sky behind it
+ *     gain  of what is not sky; NULL: 1
+ *     closed  no sky is to be seen there */
+static double mix_picture(struct sight *sight, const struct seen *seen, struct vec2 q, const double *sky, const double *gain, bool closed)
 {
     double shown[3], trust = seen_within(seen, q);
     if (trust <= 0) return 0;
-    if (seen_hidden(seen, q)) *known = 0;
-    bool clipped = seen_radiance(seen, shown, q), turned = gain && !(sky && (clipped || like_sky(shown, sky)));
+    bool hidden = seen_hidden(seen, q), clipped = seen_radiance(seen, shown, q), of_sky = sky && (clipped || like_sky(shown, sky));
+    if (of_sky && closed) return 0;
+    if (hidden) sight->known = 0;
+    else if (sky) sight->open = of_sky;
     for (int c = 0; c < 3; c++) {
-        if (turned) shown[c] *= gain[c];
+        if (gain && !of_sky) shown[c] *= gain[c];
         if (clipped && sky) shown[c] = fmax(shown[c], sky[c]);
-        rgb[c] += trust * (shown[c] - rgb[c]);
+        sight->rgb[c] += trust * (shown[c] - sight->rgb[c]);
     }
     return trust;
 }
 
 /* What the place shows in a direction. False where it is open. */
-static bool of_place(double rgb[3], const struct panorama_input *in, struct vec3 d)
+static bool of_place(struct sight *sight, const struct panorama_input *in, struct vec3 d)
 {
     struct static_hit hit;
     struct vec2 q;
@@ -139,33 +149,35 @@ static bool of_place(double rgb[3], const struct panorama_input *in, struct vec3
     static_mesh_hits(in->place, &hit, in->from_m, &d, 1);
     if (!isfinite(hit.range_m)) return false;
     static_mesh_color(in->place, own, &hit, hit.range_m * 2 * M_PI / WIDTH);
-    for (int c = 0; c < 3; c++) rgb[c] = (double)own[c] * in->color_gain[c];
+    for (int c = 0; c < 3; c++) sight->rgb[c] = (double)own[c] * in->color_gain[c];
     struct vec3 p = vec3_add(in->from_m, vec3_scale(d, hit.range_m)), eye = in->seen->world_from_camera.translation;
     if (!seen_project(in->seen, &q, p) || seen_hidden(in->seen, q)) return true;
-    double known;
     struct vec3 to_eye = vec3_sub(eye, p);
     double range = vec3_norm(to_eye);
-    if (!static_mesh_blocks(in->place, p, vec3_scale(to_eye, 1 / range), OFF_PLACE_M, range)) mix_picture(rgb, &known, in->seen, q, NULL, NULL);
+    if (!static_mesh_blocks(in->place, p, vec3_scale(to_eye, 1 / range), OFF_PLACE_M, range)) mix_picture(sight, in->seen, q, NULL, NULL, false);
     return true;
 }
 
-/* Out: rgb  radiance; known  0: something hides it. Returns whether it is other than the light's sky. */
-static bool look(double rgb[3], double *known, const struct panorama_input *in, const struct wall *wall, struct vec3 d)
+/* Returns whether it is other than the light's sky. */
+static bool look(struct sight *sight, const struct panorama_input *in, const struct wall *wall, struct vec3 d)
 {
     struct vec2 q;
-    double aside, z, gain[3];
-    *known = 1;
-    if (in->place && of_place(rgb, in, d)) return true;
-    sky_between(rgb, &in->light->sky, d);
+    double aside, z, gain[3], sky[3];
+    sight->known = 1;
+    if (in->place && of_place(sight, in, d)) return true;
+    sky_between(sky, &in->light->open_sky, d);
+    sky_between(sight->rgb, &in->light->sky, d);
+    bool closed = in->told && sight->rgb[1] != sky[1];
+    if (sight->open) memcpy(sight->rgb, sky, sizeof sky);
     if (!wall->there || hypot(d.x, d.y) < 0.1) return false;
     meet_wall(&aside, &z, in, wall, d);
     double shown_aside = in->place ? aside : fold(wall, aside);
     if (!seen_project(in->seen, &q, wall_point(in, wall, shown_aside, z))) return false;
     /* What a place shows in the picture stands where it stands. */
     if (in->place && isfinite((double)*image_f32(in->place_depth, (int)q.x, (int)q.y))) return false;
-    double sky[3] = { rgb[0], rgb[1], rgb[2] };
     turned_light(gain, wall, aside, shown_aside);
-    return mix_picture(rgb, known, in->seen, q, z > in->seen->world_from_camera.translation.z ? sky : NULL, gain) > 0;
+    bool elsewhere = fabs(remainder(aside - shown_aside, 2 * M_PI)) > 1e-9;
+    return mix_picture(sight, in->seen, q, z > in->seen->world_from_camera.translation.z ? sky : NULL, gain, closed && elsewhere) > 0;
 }
 
 static struct vec3 direction(const struct image *image, double x, double y)
@@ -182,16 +194,16 @@ static float rounded(double value)
     return (float)ldexp(round(ldexp(digits, 11)), exponent - 11);
 }
 
-/* The mean over a pixel, and how much of it is known. */
-static void paint_pixel(float rgbw[4], const struct image *image, const struct panorama_input *in, const struct wall *wall, int x, int y)
+/* The mean over a pixel, and how much of it is known. In/out: sight  of the pixel below, of this one */
+static void paint_pixel(float rgbw[4], struct sight *sight, const struct image *image, const struct panorama_input *in, const struct wall *wall,
+                        int x, int y)
 {
-    double rgb[3], known;
-    int n = look(rgb, &known, in, wall, direction(image, x + 0.5, y + 0.5)) ? FINE : 1;
-    for (int j = 0; j < n; j++)
+    int n = look(sight, in, wall, direction(image, x + 0.5, y + 0.5)) ? FINE : 1;
+    for (int j = n - 1; j >= 0; j--)
         for (int i = 0; i < n; i++) {
-            if (n > 1) look(rgb, &known, in, wall, direction(image, x + (i + 0.5) / n, y + (j + 0.5) / n));
-            for (int c = 0; c < 3; c++) rgbw[c] += (float)(known * rgb[c] / (n * n));
-            rgbw[3] += (float)(known / (n * n));
+            if (n > 1) look(sight, in, wall, direction(image, x + (i + 0.5) / n, y + (j + 0.5) / n));
+            for (int c = 0; c < 3; c++) rgbw[c] += (float)(sight->known * sight->rgb[c] / (n * n));
+            rgbw[3] += (float)(sight->known / (n * n));
         }
 }
 
@@ -201,8 +213,10 @@ static bool paint(struct image *image, const struct panorama_input *in, const st
     int width = image->width_px, height = image->height_px / 2;
     float (*rgbw)[4] = calloc((size_t)width * (size_t)height, sizeof *rgbw);
     if (!rgbw) return error_set(err, ERR_MEMORY, "no memory for what stands round the entities");
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) paint_pixel(rgbw[y * width + x], image, in, wall, x, y);
+    for (int x = 0; x < width; x++) {
+        struct sight sight = { .open = false };
+        for (int y = height - 1; y >= 0; y--) paint_pixel(rgbw[y * width + x], &sight, image, in, wall, x, y);
+    }
     bool ok = !in->seen->unhidden || push_pull(rgbw, width, height, err);
     for (int y = 0; ok && y < height; y++)
         for (int x = 0; x < width; x++)

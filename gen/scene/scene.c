@@ -146,7 +146,8 @@ bool scene_read(struct scene **out, const char *path, const char *const *model_f
     read_place(&r, root);
     read_lens_effects(&r, yaml_get(root, "lens"), yaml_get(root, "weather"));
     if (!scene_read_shots(&r, root) || !scene_read_light(&r, yaml_get(root, "light")) || !scene_read_static(&r, root) ||
-        !scene_read_ground(&r, yaml_get(root, "ground")) || !scene_read_north(&r, root) || !scene_read_roads(&r, root) ||
+        !scene_read_ground(&r, yaml_get(root, "ground")) || !scene_read_surroundings(&r, yaml_get(root, "surroundings")) ||
+        !scene_read_north(&r, root) || !scene_read_roads(&r, root) ||
         !scene_read_exposure(&r, yaml_get(root, "exposure")) || !scene_read_models(&r, yaml_get(root, "models")) ||
         !scene_read_entities(&r, yaml_get(root, "entities")) || !scene_read_occluders(&r, yaml_get(root, "occluders")) ||
         !scene_read_traffic(&r, yaml_get(root, "traffic")) || !check_lens_effects(&r, yaml_get(root, "lens")) ||
@@ -173,6 +174,7 @@ void scene_destroy(struct scene *scene)
     if (!scene) return;
     free(scene->map.file);
     free(scene->marks);
+    free(scene->skyline.point_rad);
     for (size_t i = 0; i < scene->camera_count; i++) free(scene->cameras[i].name);
     for (size_t i = 0; i < scene->shot_count; i++) {
         free(scene->shots[i].photograph);

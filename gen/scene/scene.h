@@ -130,6 +130,15 @@ struct scene_map {
     struct source source, north_source;
 };
 
+/* What stands around and hides the sky, up to an elevation that goes evenly from point to point. */
+struct scene_skyline {
+    double (*point_rad)[2];    /* (count) azimuth, clockwise from the world's y axis, ascending from 0 to 2 pi; elevation */
+    size_t count;              /* 0: nothing stands around, or something else tells what */
+    bool assumed;              /* nobody told */
+    double albedo[3];          /* linear */
+    struct source source;
+};
+
 /* Two pixels of the same surface, in the sun and in a shadow. */
 struct scene_mark { struct vec2 lit_px, shade_px; size_t shot; struct source source; };
 
@@ -164,6 +173,7 @@ struct scene {
     struct plane ground;       /* without a static mesh */
     double ground_albedo[3];   /* linear */
     double ground_reflection;  /* 0..1, mirror share at normal incidence of a wet road; 0 dry */
+    struct scene_skyline skyline; /* without a static mesh, and without a measured sky */
 
     enum sky_kind sky;         /* AUTO: to be told by the photographs (gen/estimate/estimate.h) */
     struct source light_source;

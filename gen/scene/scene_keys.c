@@ -140,6 +140,10 @@ static const struct schema_key keys[] = {
     { "ground.albedo", TYPE_NUMBER | TYPE_NUMBERS | TYPE_COLOR, .preset = "0.2", COUNT(3), LIMITS(0, 1) },
     { "ground.reflection", TYPE_NUMBER, .preset = "0", LIMITS(0, 1) },
 
+    { "surroundings", TYPE_MAPPING, SECTION },
+    { "surroundings.skyline_deg", TYPE_NUMBER | TYPE_ROWS, "deg", .preset = "10", .count_min = 1, .columns = 2 },
+    { "surroundings.albedo", TYPE_NUMBER | TYPE_NUMBERS | TYPE_COLOR, .preset = "[0.24, 0.23, 0.19]", COUNT(3), LIMITS(0, 1) },
+
     { "static", TYPE_MAPPING, .presence = OPTIONAL },
     { "static.mesh", TYPE_FILE, .presence = REQUIRED },
     { "static.world_from_mesh", TYPE_MAPPING, SECTION },

@@ -73,6 +73,52 @@ bool scene_read_ground(const struct reading *r, const struct yaml_node *node)
     return true;
 }
 
+static int by_azimuth(const void *a, const void *b)
+{
+    const double *p = a, *q = b;
+    return (p[0] > q[0]) - (p[0] < q[0]);
+}
+
+#define SKYLINE_MAX_DEG 80
+/* One elevation for all sides, or [azimuth, elevation] each. */
+static bool read_skyline(const struct reading *r, const struct yaml_node *node)
+{
+    struct scene_skyline *skyline = &r->scene->skyline;
+    size_t n = node->kind == YAML_SEQUENCE ? node->count : 1;
+    skyline->point_rad = calloc(n, sizeof *skyline->point_rad);
+    if (!skyline->point_rad) return out_of_memory(r);
+    for (size_t i = 0; i < n; i++) {
+        const struct yaml_node *item = node->kind == YAML_SEQUENCE ? node->items[i] : node;
+        double deg[2] = { 0, 0 };
+        if (item == node) deg[1] = schema_number(node);
+        else schema_numbers(deg, 2, item);
+        if (!(deg[1] >= 0 && deg[1] <= SKYLINE_MAX_DEG))
+            return FAIL(r, item, "surroundings.skyline_deg: an elevation of %g: it is from 0 to %d", deg[1], SKYLINE_MAX_DEG);
+        if (!(fabs(deg[0]) <= 360)) return FAIL(r, item, "surroundings.skyline_deg: an azimuth of %g: it is from -360 to 360, and the order [azimuth, elevation]", deg[0]);
+        skyline->point_rad[i][0] = rad_from_deg(fmod(deg[0] + 720, 360));
+        skyline->point_rad[i][1] = rad_from_deg(deg[1]);
+        if (deg[1] > 0) skyline->count = n;
+    }
+    qsort(skyline->point_rad, n, sizeof *skyline->point_rad, by_azimuth);
+    for (size_t i = 1; i < n; i++)
+        if (!(skyline->point_rad[i - 1][0] < skyline->point_rad[i][0]))
+            return FAIL(r, node, "surroundings.skyline_deg: azimuth %g comes twice", skyline->point_rad[i][0] * 180 / M_PI);
+    return true;
+}
+
+bool scene_read_surroundings(const struct reading *r, const struct yaml_node *node)
+{
+    static const char *const all[] = { "skyline_deg", "albedo", NULL };
+    struct scene *scene = r->scene;
+    const struct yaml_node *skyline = yaml_get(node, "skyline_deg");
+    if (scene->static_.mesh) return scene_refuse_given(r, node, all, "surroundings", "the static mesh tells what stands around");
+    if (scene->sky == SKY_MAP) return scene_refuse_given(r, node, all, "surroundings", "the sky's map shows what stands around");
+    scene->skyline.source = source_of(skyline);
+    scene->skyline.assumed = skyline->is_default;
+    scene_read_color(scene->skyline.albedo, yaml_get(node, "albedo"));
+    return read_skyline(r, skyline);
+}
+
 bool scene_read_exposure(const struct reading *r, const struct yaml_node *node)
 {
     struct scene *scene = r->scene;

@@ -45,6 +45,8 @@ bool scene_read_north(const struct reading *r, const struct yaml_node *root);
 bool scene_read_light(const struct reading *r, const struct yaml_node *node);
 bool scene_read_static(const struct reading *r, const struct yaml_node *root);
 bool scene_read_ground(const struct reading *r, const struct yaml_node *node);
+/* After light and static. */
+bool scene_read_surroundings(const struct reading *r, const struct yaml_node *node);
 bool scene_read_exposure(const struct reading *r, const struct yaml_node *node);
 /* Models first, then entities and occluders; traffic needs models, too. */
 bool scene_read_models(const struct reading *r, const struct yaml_node *node);

@@ -92,6 +92,10 @@ static bool put_post(FILE *f, const struct proving_case *c, const struct camera 
 /* The street's middle, where the tool lays a smooth road over the reconstruction. */
 #define ROAD "paths: [{name: street, use: vehicles, width_m: 7, points_m: [[-40, 0], [40, 0]]}]\n"
 
+/* What a glance says: to the north houses of 5 to 10 m with a few gaps, 9 to 10 m from the middle; to the south lower ones,
+ * twice as far, and trees before them; both ways the street goes on. */
+#define SKYLINE "surroundings: {skyline_deg: [[0, 35], [90, 10], [180, 20], [270, 10]]}\n"
+
 /* Known with the light; or fitted to asphalt, as its user would have it. */
 static void put_exposure(FILE *f, const struct proving_case *c, const struct camera *camera, const char *variant)
 {
@@ -106,7 +110,7 @@ static void put_exposure(FILE *f, const struct proving_case *c, const struct cam
 static bool put_photographs(FILE *f, const struct proving_case *c, const struct camera *camera, const char *variant, struct error *err)
 {
     if (!strcmp(variant, "light")) {
-        fputs("photographs: {files: [grey.png]}\nexposure: {value: 1}\nground: {height_m: 0, albedo: 0.11}\n"
+        fputs("photographs: {files: [grey.png]}\nexposure: {value: 1}\nsurroundings: {skyline_deg: 0}\nground: {height_m: 0, albedo: 0.11}\n"
               "camera: {model: PINHOLE, size_px: [1000, 1000], horizontal_fov_deg: 70, pose: {look_at: "
               "{position_m: [0, 0, 60], target_m: [0, 0, 0], up: [0, 1, 0]}}}\n", f);
         return true;
@@ -116,7 +120,7 @@ static bool put_photographs(FILE *f, const struct proving_case *c, const struct 
         put_camera(f, camera);
         fputs(", ", f);
         put_pose(f, &c->shots[0]);
-        fprintf(f, "\nground: {height_m: 0, albedo: %g}\n", PROVING_ALBEDO);
+        fprintf(f, "\nground: {height_m: 0, albedo: %g}\n" SKYLINE, PROVING_ALBEDO);
         put_exposure(f, c, camera, variant);
         fputs("occluders:\n", f);
         return put_post(f, c, camera, err) && put_parked(f, c, camera, err);

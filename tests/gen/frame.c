@@ -174,7 +174,8 @@ static void test_exposure_is_fitted(void)
     struct manifest one, other;
     static const char head[] = "photographs: {files: [grey.png]}\ncamera: {model: PINHOLE, size_px: [64, 48], params: [60, 60, 32, 24], " HIGH "}";
     static const char rest[] = "ground: {height_m: 0, albedo: %s}\nexposure: {patch_px: [4, 4, 20, 20]}\n"
-                               "entities: [{name: e, model: box, at: {world_m: [0, 0]}, heading_deg: 0}]";
+                               "entities: [{name: e, model: box, at: {world_m: [0, 0]}, heading_deg: 0}]\n"
+                               "surroundings: {skyline_deg: 0}";
     char *path = in_scratch("grey.png"), text[512];
     memset(grey, 137, sizeof grey);
     bool written = image_write(path, &image, &err);

@@ -110,7 +110,7 @@ int main(void)
     struct light light;
     struct scene scene = scene_with(SKY_OVERCAST, 0, 3);
     OK(light_create(&light, &scene, &err), "an overcast sky needs no sun");
-    NEAR(luminance(light.irradiance), 1, 1e-12, "a level white surface has luminance 1");
+    NEAR(luminance(light.irradiance), 1, 1e-6, "a level white surface has luminance 1");
     double zenith[3], horizon[3];
     light_sky_radiance(zenith, &light, vec3(0, 0, 1));
     light_sky_radiance(horizon, &light, vec3(cos(0.012), 0, sin(0.012)));

@@ -120,6 +120,46 @@ static void over_a_plane(const struct light *light)
     }
 }
 
+/* The picture's upper half, above the horizon: something grey on the left, the sky on the right. What stands around is told or assumed, 70 degrees
+ * high, higher than the picture goes. */
+static void with_a_skyline(const struct scene *open_scene)
+{
+    struct error err = ERROR_NONE;
+    struct panorama p;
+    struct light light;
+    double point[1][2] = { { 0, 70 * M_PI / 180 } }, rgb[3], stands[3];
+    struct scene scene = *open_scene;
+    scene.skyline = (struct scene_skyline){ .point_rad = point, .count = 1, .albedo = { 0.05, 0.05, 0.05 } };
+    if (!OK(light_create(&light, &scene, &err), "a light between houses")) return;
+    struct seen seen = { .picture = &picture, .camera = &camera, .world_from_camera = level, .k = { 0.5, 0.5, 0.5 } };
+    seen_init(&seen);
+    struct panorama_input in = input(&seen, &light);
+    fill_px(&picture, 0, 0, WIDTH, HEIGHT, 0.1, 0.1, 0.1);
+    fill_px(&picture, WIDTH / 2, 0, WIDTH, 145, 0.4, 0.7, 1);
+    for (int told = 0; told < 2; told++) {
+        in.told = told;
+        if (!OK(panorama_create(&p, &in, &err), "what stands around is %s", told ? "told" : "assumed")) continue;
+        near_radiance(&p.mirrored, 105, 30, 0.2, 0.2, 0.2, "what the picture shows counts before it");
+        radiance_at(rgb, &p.mirrored, 75, 30);
+        OK(rgb[2] > 1.9, "also the sky that it shows (%.2f)", rgb[2]);
+        struct vec3 above_sky = vec3(cos(1.1) * cos(1.3), cos(1.1) * sin(1.3), sin(1.1)), above_grey = vec3(cos(1.1) * cos(1.8), cos(1.1) * sin(1.8), sin(1.1));
+        radiance_at(rgb, &p.mirrored, degrees(1.3), degrees(1.1));
+        light_sky_radiance(stands, &light, above_sky);
+        OK(rgb[2] > 3 * stands[2], "above a sky that is seen nothing stands (%.3f, %.3f)", rgb[2], stands[2]);
+        radiance_at(rgb, &p.mirrored, degrees(1.8), degrees(1.1));
+        light_sky_radiance(stands, &light, above_grey);
+        NEAR(rgb[2], stands[2], 0.05 * stands[2], "above what stands it goes on");
+        int bright = 0, n = 0;
+        for (int azimuth = 200; azimuth < 340; azimuth++, n++) {
+            radiance_at(rgb, &p.mirrored, azimuth, 30);
+            bright += rgb[2] > 1;
+        }
+        OK(told ? bright == 0 : bright > n / 4, "behind the camera the sky of the picture is %s mirrored (%d of %d)", told ? "not" : "also", bright, n);
+        panorama_release(&p);
+    }
+    light_release(&light);
+}
+
 /* A wall 5 m ahead of the body and 3 m high, and one behind the camera; the mesh is grey of 128, 0.21586 linear. */
 static void over_a_place(const struct light *light)
 {
@@ -165,6 +205,7 @@ int main(void)
     if (!OK(light_create(&light, &scene, &err) && image_init(&picture, WIDTH, HEIGHT, 3, PIXEL_U8, &err), "light and a picture")) return tap_done();
     over_a_plane(&light);
     over_a_place(&light);
+    with_a_skyline(&scene);
     image_release(&picture);
     light_release(&light);
     return tap_done();

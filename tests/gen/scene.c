@@ -130,6 +130,8 @@ static void a_minimal_scene_takes_the_stated_defaults(void)
     NEAR(s->ground_albedo[0], 0.2, 0, "albedo 0.2");
     NEAR(s->ground_albedo[2], 0.2, 0, "in each channel");
     NEAR(s->ground_reflection, 0, 0, "dry");
+    OK(s->skyline.count == 1 && s->skyline.assumed, "what stands around is assumed");
+    NEAR(s->skyline.point_rad[0][1], M_PI / 18, 1e-15, "up to 10 degrees");
     OK(!s->exposure_given && s->white_balance, "exposure and white balance are fitted");
     OK(s->exposure_patch_px[0].x == 10 && s->exposure_patch_px[1].y == 46, "to the patch");
     OK(s->entity_count == 1 && !s->entities[0].has_class && s->models[0].class_ == CLASS_CAR && !s->entities[0].has_color, "the entity takes its model's class");
@@ -432,7 +434,7 @@ static void text_is_not_guessed_to_be_something_else(void)
         { "? [seed]\n: 1\n", "a key must be plain text" },
         { "quality: high\n\"quality\": draft\n", "key \"quality\" is here for the second time (first in line 1): keep one" },
         { "seed.x: 1\n", "unknown key \"seed.x\" (known here: staffage, photographs, camera, shots, cameras, place, north_deg, "
-                         "north, time, light, ground, static, roads, paths, exposure, models, materials, entities, occluders, "
+                         "north, time, light, ground, surroundings, static, roads, paths, exposure, models, materials, entities, occluders, "
                          "traffic, weather, lens, transfer, labels, quality, seed)" },
         { "photographs: {files: [street.jpg, street-wet.jpg]}\nplace: {latitude_deg: 46, longitude_deg: -92}\n"
           "paths: [{name: a, use: people, width_m: 2, points_m: [[0, 0], [9, 0]]}]\n"
@@ -463,6 +465,12 @@ static void text_is_not_guessed_to_be_something_else(void)
           "light.sun_scale: and sky_share say the same: remove one" },
         { "light: {sky: overcast, shadows: [{lit_px: [1, 1], shade_px: [2, 2]}]}\n",
           "light.shadows: are marked for \"sky: auto\": remove them, or use it" },
+        { "surroundings: {skyline_deg: 81}\n", "surroundings.skyline_deg: an elevation of 81: it is from 0 to 80" },
+        { "surroundings: {skyline_deg: [[400, 20]]}\n", "surroundings.skyline_deg: an azimuth of 400: it is from -360 to 360, and the order [azimuth, elevation]" },
+        { "surroundings: {skyline_deg: [[0, 20], [360, 10]]}\n", "surroundings.skyline_deg: azimuth 0 comes twice" },
+        { "static: {mesh: place.ply}\nground: {}\nsurroundings: {skyline_deg: 20}\n", "surroundings.skyline_deg: the static mesh tells what stands around" },
+        { "light: {sky: map, map: {file: sky.exr, north_px: 7.5}}\nsurroundings: {albedo: 0.3}\n",
+          "surroundings.albedo: the sky's map shows what stands around" },
         { "light: aut\n", "unknown light \"aut\" (did you mean \"auto\"?)" },
         { "lens: {focus_m: 3}\n", "lens: defocus_px and focus_m go together" },
         { "lens: {grain: 101}\n", "lens.grain: expected number from 0 to 100 or one of auto, none, found 101" },
@@ -504,6 +512,25 @@ static void every_sky_is_read(void)
     }
 }
 
+static void a_skyline_is_read(void)
+{
+    struct error err = ERROR_NONE;
+    struct scene *s = read_sections("surroundings: {skyline_deg: [[-90, 30], [0, 10], [90, 0]], albedo: 0.4}\n", &err);
+    if (OK(s, "a skyline by azimuth %s", err.text)) {
+        OK(s->skyline.count == 3 && !s->skyline.assumed && s->skyline.albedo[1] == 0.4, "is read");
+        NEAR(s->skyline.point_rad[1][0], M_PI / 2, 1e-15, "its azimuths as they are");
+        NEAR(s->skyline.point_rad[2][1], M_PI / 6, 1e-15, "or within a turn, in order");
+        scene_destroy(s);
+    }
+    static const char *const nothing[] = { "surroundings: {skyline_deg: 0}\n", "static: {mesh: place.ply}\nground: {}\n",
+                                           "light: {sky: map, map: {file: sky.exr, north_px: 7.5}}\n" };
+    for (size_t i = 0; i < sizeof nothing / sizeof *nothing; i++) {
+        s = read_sections(nothing[i], &err);
+        OK(s && s->skyline.count == 0, "nothing is assumed to stand around: %.*s %s", (int)strcspn(nothing[i], "\n"), nothing[i], err.text);
+        scene_destroy(s);
+    }
+}
+
 static void a_file_that_is_not_there(void)
 {
     struct error err = ERROR_NONE;
@@ -530,6 +557,7 @@ int main(void)
     }
     text_is_not_guessed_to_be_something_else();
     every_sky_is_read();
+    a_skyline_is_read();
     a_cut_off_file_is_refused_in_words();
     a_file_that_is_not_there();
     free(manual);

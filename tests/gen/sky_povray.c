@@ -63,8 +63,8 @@ static bool mean_of(double rgb[3], const struct image *object, int plane)
 
 static char out[] = "sky_povray.XXXXXX";
 
-/* The object pass: the sky by radiosity, the sun, and the ground that bounces both. */
-static void check_object_pass(const struct scene *scene, const struct light *light, const char *name)
+/* The object pass: the sky by radiosity, the sun, and the ground that bounces both. In: level  what level ground receives, NAN: not known */
+static void check_object_pass(const struct scene *scene, const struct light *light, const char *name, double level)
 {
     struct error err = ERROR_NONE;
     struct material material;
@@ -91,6 +91,8 @@ static void check_object_pass(const struct scene *scene, const struct light *lig
             double got[3], want[3];
             light_irradiance(want, light, normal_of(i));
             if (!OK(mean_of(got, &object, i), "%s: plane %d is in the picture", name, i)) continue;
+            if (i == 0 && isfinite(level))
+                NEAR(got[1], level, 0.02 * level, "%s: level ground receives what an integral by hand says (%+.2f %%)", name, 100 * (got[1] / level - 1));
             for (int c = 0; c < 3; c++)
                 NEAR(got[c], want[c], 0.02 * want[c], "%s: plane %d receives what the integral says, channel %d (%+.2f %%)", name, i,
                      c, 100 * (got[c] / want[c] - 1));
@@ -100,6 +102,17 @@ static void check_object_pass(const struct scene *scene, const struct light *lig
     image_release(&object);
     free(folder);
     free(path);
+}
+
+/* Level ground under the overcast sky of (3/7) (1 + 2 sin e), of level light 1, between walls up to an elevation all round: the
+ * integral by hand. A wall receives of the sky (2/pi) times its integral over cos^2 e, of the walls opposite V = (a + sin a cos a) / pi, and half the
+ * ground's, of which all is linear in what it sends. */
+static double between_walls(double a, double wall_albedo, double ground_albedo)
+{
+    double s = sin(a), c = cos(a), sky = 3.0 / 7 * (1 - s * s + 4.0 / 3 * (1 - s * s * s));
+    double on_wall = 6 / (7 * M_PI) * (M_PI / 4 - (a + s * c) / 2 + 2 * c * c * c / 3), v = (a + s * c) / M_PI;
+    double wall = wall_albedo * (on_wall + ground_albedo * sky / 2) / (1 - wall_albedo * (v + ground_albedo * s * s / 2));
+    return sky + wall * s * s;
 }
 
 /* The lights that stand for the sky where shade is measured. */
@@ -148,9 +161,9 @@ int main(void)
         .path = "scene.yaml", .sun = SUN_GIVEN, .sun_azimuth_rad = 1, .sun_elevation_rad = 0.6, .turbidity = 2.5, .sun_scale = 1,
         .ground = { { 0, 0, 1 }, 0 }, .ground_albedo = { 0.22, 0.2, 0.18 }, .quality = QUALITY_HIGH, .map = { .file = map },
     };
-    static const struct { const char *name; enum sky_kind sky; int cie_type; enum sun_kind sun; } skies[] = {
-        { "clear", SKY_CLEAR, 0, SUN_GIVEN },       { "overcast", SKY_OVERCAST, 0, SUN_NONE }, { "standard sky 7", SKY_CIE, 7, SUN_GIVEN },
-        { "standard sky 12", SKY_CIE, 12, SUN_GIVEN }, { "measured", SKY_MAP, 0, SUN_NONE },
+    static const struct { const char *name; enum sky_kind sky; int cie_type; enum sun_kind sun; double skyline_rad; } skies[] = {
+        { "clear", SKY_CLEAR, 0, SUN_GIVEN, 0 },       { "overcast", SKY_OVERCAST, 0, SUN_NONE, 0 }, { "standard sky 7", SKY_CIE, 7, SUN_GIVEN, 0 },
+        { "standard sky 12", SKY_CIE, 12, SUN_GIVEN, 0 }, { "measured", SKY_MAP, 0, SUN_NONE, 0 }, { "between walls", SKY_OVERCAST, 0, SUN_NONE, 0.5 },
     };
     for (size_t i = 0; i < sizeof skies / sizeof *skies; i++) {
         struct scene scene = base;
@@ -158,8 +171,10 @@ int main(void)
         scene.sky = skies[i].sky;
         scene.cie_type = skies[i].cie_type;
         scene.sun = skies[i].sun;
+        double line[1][2] = { { 0, skies[i].skyline_rad } };
+        scene.skyline = (struct scene_skyline){ .point_rad = line, .count = skies[i].skyline_rad > 0, .albedo = { 0.3, 0.3, 0.25 } };
         if (!OK(light_create(&light, &scene, &err), "%s: a light", skies[i].name)) continue;
-        check_object_pass(&scene, &light, skies[i].name);
+        check_object_pass(&scene, &light, skies[i].name, skies[i].sky == SKY_OVERCAST ? between_walls(skies[i].skyline_rad, 0.3, 0.2) : NAN);
         scene.quality = QUALITY_STANDARD;
         check_lights(&light, pass_settings(scene.quality).sky_directions, skies[i].name);
         light_release(&light);
