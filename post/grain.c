@@ -11,8 +11,9 @@
 #define SPREAD 0.15       /* relative standard deviation of a patch's variance where there is noise alone, which
                            * neighbours share: 0.09 for 253 independent pixels */
 #define VARIANCE_MIN 0.01 /* below, rounding hides what there is */
-#define DOUBLES 128.0     /* levels over which a camera's noise at most doubles: of light it grows as the root, and what the
-                           * tone curve lifts makes that nearly even */
+#define DARKER 128.0      /* levels down which a camera's noise at most doubles: of light it grows as the root, and the tone curve */
+#define BRIGHTER 512.0    /* makes that nearly even, or less up to the bright. And levels up which it does; */
+#define SHADOWS 64        /* but a curve that presses what is darker than this presses its noise with it */
 
 typedef double colors[3];
 
@@ -173,6 +174,8 @@ static void without_texture(struct grain *g, const struct sums sums[GRAIN_LEVELS
     }
 }
 
+static double doubling(int from, int to) { return to > from && from * LEVEL_STEP >= SHADOWS ? BRIGHTER : DARKER; }
+
 /* Where no flat patch is this bright, texture remains: noise grows only so fast with brightness. The darkest and
  * the brightest level, where there is no room for noise on one side, say nothing of the others. */
 static void bound_by_neighbours(struct grain *g)
@@ -183,7 +186,7 @@ static void bound_by_neighbours(struct grain *g)
         double most = variance[i];
         for (int j = 1; j < GRAIN_LEVELS - 1; j++)
             if (g->seen[j])
-                most = fmin(most, fmax(variance[j], 0.02) * exp2(2 * abs(i - j) * LEVEL_STEP / DOUBLES));
+                most = fmin(most, fmax(variance[j], 0.02) * exp2(2 * abs(i - j) * LEVEL_STEP / doubling(j, i)));
         for (int k = 0; k < 9 && most < variance[i]; k++) g->covariance[i][k / 3][k % 3] *= most / variance[i];
     }
 }

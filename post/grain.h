@@ -10,6 +10,7 @@
 #include "lib/error.h"
 #include "lib/image.h"
 #include "lib/rect.h"
+#include "post/compression.h"
 #include "post/flat.h"
 
 #include <stdbool.h>
@@ -30,6 +31,9 @@ struct grain {
  * Src: after C. Liu, W. T. Freeman, R. Szeliski, S. B. Kang, Noise estimation from a single image, CVPR 2006
  * In:  patches, of `rgb` (U8, 3 channels). Err: ERR_MEMORY */
 bool grain_measure(struct grain *grain, const struct image *rgb, const struct flat_patches *patches, struct error *err);
+/* Make it what must be there before a file presses it, for as much to be left in even places: what has been pressed once passes nearly
+ * as it is, but loses where it is less than the file's steps, and these add their own. Err: ERR_MEMORY */
+bool grain_before_compression(struct grain *grain, const struct compression *compression, struct error *err);
 /* White noise of this standard deviation (in levels) in each of R, G and B. */
 struct grain grain_white(double sigma);
 /* Standard deviation of R, G or B at a level. */

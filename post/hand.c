@@ -67,7 +67,11 @@ static bool measure(struct hand *h, const struct manifest *m, const struct image
     if ((m->grain_auto || m->vignetting_auto) && !flat_patches_find(&patches, rgb, err)) return false;
     bool ok = (!m->grain_auto || grain_measure(&h->grain, rgb, &patches, err)) &&
               take_softness(h, m, rgb, object, err) && take_compression(h, m, path, err);
-    if (ok && m->grain_auto) h->has_grain = h->grain.patches > 0;
+    if (ok && m->grain_auto) {
+        h->has_grain = h->grain.patches > 0;
+        h->drawn = h->grain;
+        if (h->has_grain && h->compression.found) ok = grain_before_compression(&h->drawn, &h->compression, err);
+    }
     take_vignetting(h, m, &patches);
     take_highlights(h, m, rgb);
     flat_patches_release(&patches);
@@ -81,7 +85,7 @@ bool hand_measure(struct hand *hand, const struct manifest *m, const struct imag
     if (!m->new_view && h.softness_px > 0) h.hider_px = besides_pixel(hypot(h.softness_px, LAYER_EDGE_PX));
     if (!m->grain_auto && m->grain > 0) {
         h.has_grain = true;
-        h.grain = grain_white(m->grain);
+        h.grain = h.drawn = grain_white(m->grain);
     }
     /* No camera took a new view: what is to be measured is not there. */
     struct manifest given = *m;
@@ -164,7 +168,7 @@ static bool sharpen(struct image *levels, const struct image *rgb, const struct 
     return ok;
 }
 
-/* The file's blocks come after the sharpening, and the grain after these: on what had been pressed it was measured. */
+/* In the camera's order. */
 bool hand_develop(struct image *rgb, const struct hand *hand, const struct manifest *m, const struct image *before,
                   const struct image *after, const struct image *object, const struct image *visible, struct error *err)
 {
@@ -173,8 +177,8 @@ bool hand_develop(struct image *rgb, const struct hand *hand, const struct manif
     struct draw_key key = { .seed = (uint64_t)m->seed, .frame = strtoll(m->frame, NULL, 10) };
     bool ok = levels_take(&levels, rgb, before, after, w, err) && cover_take(&cover, object, visible, err) &&
               (hand->sharpening <= 0 || sharpen(&levels, rgb, &cover, hand->sharpening, w, err)) &&
-              (!hand->compression.found || compress(&levels, rgb, &hand->compression, w, err)) &&
-              (!hand->has_grain || grain_add(&levels, &cover, &hand->grain, key, w, m->width_px, err));
+              (!hand->has_grain || grain_add(&levels, &cover, &hand->drawn, key, w, m->width_px, err)) &&
+              (!hand->compression.found || compress(&levels, rgb, &hand->compression, w, err));
     if (ok) put_levels(rgb, &levels, w);
     image_release(&levels);
     image_release(&cover);

@@ -21,7 +21,7 @@ struct hand {
     double hider_px;                /* softness of what stands before the layers, besides the area of a pixel */
     double sharpening;
     bool has_grain;
-    struct grain grain;
+    struct grain grain, drawn;      /* as the photograph has it; and before its file pressed it */
     double fall_off;                /* 0: none */
     double knee;                    /* 1: none */
     struct compression compression; /* not found: none */

@@ -11,7 +11,7 @@ post_libpost_a_SOURCES = \
   %D%/frame.c %D%/frame.h \
   %D%/frame_input.c %D%/frame_input.h \
   %D%/frame_list.c %D%/frame_list.h \
-  %D%/grain.c %D%/grain.h %D%/grain_add.c \
+  %D%/grain.c %D%/grain.h %D%/grain_add.c %D%/grain_pressed.c \
   %D%/ground_light.c %D%/ground_light.h \
   %D%/hand.c %D%/hand.h %D%/hand_json.c \
   %D%/highlights.c %D%/highlights.h \

@@ -108,6 +108,74 @@ static void check_added(const struct grain *g)
     image_release(&half);
 }
 
+static struct compression steps_of(int step)
+{
+    struct compression c = { .found = true, .width_px = W, .height_px = H, .components = 3, .across = { 2, 1, 1 }, .down = { 2, 1, 1 } };
+    for (int i = 0; i < 3 * 64; i++) c.table[i / 64][i % 64] = (uint16_t)step;
+    return c;
+}
+
+static void press(struct image *rgb, const struct compression *c)
+{
+    struct error err = ERROR_NONE;
+    if (!compression_apply(rgb, (struct rect){ 0, 0, W, H }, c, &err)) exit(99);
+}
+
+static double sigma_of_bytes(const struct image *rgb, int c)
+{
+    double sum = 0, squares = 0, n = (double)(image_size(rgb) / 3);
+    for (size_t i = 0; i < image_size(rgb) / 3; i++) {
+        double v = ((const uint8_t *)rgb->data)[3 * i + (size_t)c];
+        sum += v / n;
+        squares += v * v / n;
+    }
+    return sqrt(squares - sum * sum);
+}
+
+/* A grey wall's noise, pressed by the camera; and what is drawn for another wall, pressed by us. */
+static void check_pressed(double sigma, int step)
+{
+    struct error err = ERROR_NONE;
+    struct flat_patches patches;
+    struct grain g;
+    struct compression c = steps_of(step);
+    struct draw_key key = { .seed = 9 };
+    struct image rgb = grey(W, H, 0), levels = flat(W, H, 3, 136), cover = flat(W, H, 1, 1);
+    for (size_t i = 0; i < image_size(&rgb); i++) ((uint8_t *)rgb.data)[i] = byte(136 + sigma * noise());
+    press(&rgb, &c);
+    if (!flat_patches_find(&patches, &rgb, &err) || !grain_measure(&g, &rgb, &patches, &err)) exit(99);
+    double measured = hypot(grain_sigma(&g, 136, 1), sqrt(1.0 / 12)); /* a byte is rounded */
+    NEAR(measured / sigma_of_bytes(&rgb, 1), 1, 0.15, "noise of %g is measured as steps of %d left it: %.2f", sigma, step, measured);
+    OK(grain_before_compression(&g, &c, &err), "what was there before is found");
+    grain_add(&levels, &cover, &g, key, (struct rect){ 0, 0, W, H }, W, &err);
+    for (size_t i = 0; i < image_size(&rgb); i++) ((uint8_t *)rgb.data)[i] = byte((double)((float *)levels.data)[i]);
+    press(&rgb, &c);
+    NEAR(sigma_of_bytes(&rgb, 1) / measured, 1, 0.07, "is drawn so that as much is left when it is pressed");
+    flat_patches_release(&patches);
+    image_release(&rgb);
+    image_release(&levels);
+    image_release(&cover);
+}
+
+/* Above, the noise of a wall; below, brighter, nothing but fine gravel. */
+static void check_bright_texture(void)
+{
+    struct error err = ERROR_NONE;
+    struct flat_patches patches;
+    struct grain g;
+    struct image rgb = grey(W, H, 0);
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++) {
+            double level = y < H / 2 ? 88 + 2 * noise() : 168 + 7 * noise();
+            for (int c = 0; c < 3; c++) image_u8(&rgb, x, y)[c] = byte(level);
+        }
+    OK(flat_patches_find(&patches, &rgb, &err) && grain_measure(&g, &rgb, &patches, &err), "a wall and bright gravel");
+    NEAR(grain_sigma(&g, 88, 1), 2, 0.2, "the wall's noise is told");
+    NEAR(grain_sigma(&g, 168, 1), 2, 0.4, "and gravel is not taken for it");
+    flat_patches_release(&patches);
+    image_release(&rgb);
+}
+
 int main(void)
 {
     struct error err = ERROR_NONE;
@@ -131,6 +199,11 @@ int main(void)
     NEAR(grain_sigma(&g, 120, 0), 0, 1e-6, "has none");
     flat_patches_release(&patches);
     image_release(&rgb);
+
+    check_bright_texture();
+    check_pressed(1, 3);
+    check_pressed(2, 4);
+    check_pressed(3, 6);
 
     g = grain_white(2.5);
     NEAR(grain_sigma(&g, 77, 2), 2.5, 1e-9, "noise that is given is the same everywhere");
