@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define ROOM 1.2
 #define BODY_M 1.0 /* height over the ground at which entities look round */
 
 /* Among the entities, by how much of each is seen: one that comes into the picture moves it little by little. */
@@ -78,6 +79,19 @@ static bool write_ground(struct pass_surroundings *out, double color_gain[3], co
     return ok;
 }
 
+/* All who mirror the circle are within it, and all that stands before it. */
+static double circle_radius(const struct frame *f, double radius_m)
+{
+    struct vec3 eye = f->shot->world_from_camera.translation;
+    for (size_t i = 0; i < f->moment.n; i++) {
+        struct vec3 p = f->moment.entities[i].world_from_entity.translation;
+        if (f->matters[i]) radius_m = fmax(radius_m, ROOM * hypot(p.x - eye.x, p.y - eye.y));
+    }
+    for (size_t i = 0; i < f->scene->occluder_count; i++)
+        radius_m = fmax(radius_m, ROOM * hypot(f->occluders[i].foot_m.x - eye.x, f->occluders[i].foot_m.y - eye.y));
+    return radius_m;
+}
+
 /* A measured sky has what stands round it. */
 static bool write_sky(struct pass_surroundings *out, const double color_gain[3], const struct frame *f, const struct seen *seen,
                       struct error *err)
@@ -94,6 +108,9 @@ static bool write_sky(struct pass_surroundings *out, const double color_gain[3],
     if (!panorama_create(&panorama, &in, err)) return false;
     bool ok = write(out->sky_map, f, "sky.exr", &panorama.lighting, err) &&
               write(out->mirrored_sky_map, f, "panorama.exr", &panorama.mirrored, err);
+    out->seen_from_m = from;
+    out->circle_m = vec3(eye.x, eye.y, ground);
+    if (panorama.radius_m > 0) out->circle_radius_m = circle_radius(f, panorama.radius_m);
     panorama_release(&panorama);
     return ok;
 }

@@ -256,6 +256,7 @@ bool panorama_create(struct panorama *panorama, const struct panorama_input *in,
     const float *ground = image_f32(sky, 0, sky->height_px - 1);
     for (int y = out.mirrored.height_px / 2; y < out.mirrored.height_px; y++)
         for (int x = 0; x < out.mirrored.width_px; x++) memcpy(image_f32(&out.mirrored, x, y), ground, 3 * sizeof *ground);
+    if (wall.there && !in->place) out.radius_m = wall.radius_m;
     *panorama = out;
     return true;
 }

@@ -39,6 +39,8 @@ struct pass_surroundings {
     struct vec2 low_m, high_m;
     double ground_albedo[3];        /* beyond the orthophoto */
     char sky_map[SURROUNDINGS_PATH_SIZE], mirrored_sky_map[SURROUNDINGS_PATH_SIZE]; /* "": the light's sky */
+    struct vec3 seen_from_m, circle_m; /* where the mirrored map is seen from; and the middle, on the ground, of the circle that */
+    double circle_radius_m;            /* mirrors see it on; 0: it is as far away as the sky */
     struct pass_standing *standing; /* (standing_count) */
     size_t standing_count;
 };

@@ -1,5 +1,6 @@
 /* Balls among surroundings taken from a picture, as POV-Ray renders them: what light reaches them, and what they mirror. */
 #include "gen/light/orthophoto.h"
+#include "gen/light/sky_image.h"
 #include "gen/render/passes.h"
 #include "tests/gen/povray.h"
 #include "tests/gen/solid.h"
@@ -15,6 +16,9 @@ static struct scene scene = {
     .path = "scene.yaml", .sky = SKY_CLEAR, .sun = SUN_GIVEN, .sun_azimuth_rad = 1, .sun_elevation_rad = 0.8, .turbidity = 3, .sun_scale = 1,
     .ground = { { 0, 0, 1 }, 0 }, .ground_albedo = { 0.3, 0.3, 0.3 }, .quality = QUALITY_DRAFT,
 };
+
+/* What stands around, when it has a picture. */
+static struct { struct image map; struct vec3 from_m, centre_m; double radius_m; } circle;
 
 /* Of radius 1, its middle at `middle`. */
 static void ball(struct solid *solid)
@@ -78,6 +82,16 @@ static bool render(struct image *pass, const struct light *light, const struct e
         around.low_m = ground.low_m;
         around.high_m = ground.high_m;
         memcpy(around.ground_albedo, ground.elsewhere, sizeof around.ground_albedo);
+        if (circle.map.data) {
+            char *map = string_format("%s/panorama.exr", folder);
+            ok = ok && image_write(map, &circle.map, &err);
+            free(map);
+            strcpy(around.sky_map, "frames/panorama.exr");
+            strcpy(around.mirrored_sky_map, "frames/panorama.exr");
+            around.seen_from_m = circle.from_m;
+            around.circle_m = circle.centre_m;
+            around.circle_radius_m = circle.radius_m;
+        }
         p.surroundings = &around;
         orthophoto_release(&ground);
     }
@@ -219,6 +233,37 @@ static void test_upright(const struct light *light, struct entity *entity, struc
     image_release(&pass);
 }
 
+/* A red disc of 6 degrees on a circle round the camera, as it is seen from beside the ball: the ball mirrors it from where the ball is. */
+static void test_circle(const struct light *light, struct entity *entity, struct image *picture, double radius_m)
+{
+    struct error err = ERROR_NONE;
+    struct image pass = { 0 };
+    struct vec3 disc = vec3(0.5 * 20, eye.y - sqrt(0.75) * 20, 6);
+    circle.from_m = vec3(5, 3, 1);
+    circle.centre_m = vec3(eye.x, eye.y, 0);
+    circle.radius_m = radius_m;
+    if (!OK(image_init(&circle.map, 512, 256, 3, PIXEL_F32, &err), "a picture of what stands around")) return;
+    for (int y = 0; y < 256; y++)
+        for (int x = 0; x < 512; x++) {
+            bool red = vec3_dot(sky_direction(&circle.map, x, y), vec3_unit(vec3_sub(disc, circle.from_m))) > cos(6 * M_PI / 180);
+            for (int c = 0; c < 3; c++) image_f32(&circle.map, x, y)[c] = c && red ? 0.01f : 0.5f;
+        }
+    fill_px(picture, 0, 0, WIDTH, HEIGHT, 0.2, 0.2, 0.2);
+    double sum = 0, sx = 0, sy = 0;
+    if (OK(render(&pass, light, entity, picture, NULL), "a mirror ball on a circle of %g m", radius_m))
+        for (int y = 0; y < HEIGHT; y++)
+            for (int x = 0; x < WIDTH; x++) {
+                double redness = red_at(&pass, x, y);
+                sum += redness, sx += redness * (x + 0.5), sy += redness * (y + 0.5);
+            }
+    struct vec2 want = mirrored_at(radius_m > 0 ? disc : vec3_add(middle, vec3_scale(vec3_sub(disc, circle.from_m), 1000)));
+    OK(sum > 0, "the ball shows the disc");
+    NEAR(sx / sum, want.x, 0.7, "%s, across", radius_m > 0 ? "where it stands" : "as far away as the sky it is in its direction");
+    NEAR(sy / sum, want.y, 0.7, "and down");
+    image_release(&pass);
+    image_release(&circle.map);
+}
+
 int main(void)
 {
     struct error err = ERROR_NONE;
@@ -237,6 +282,8 @@ int main(void)
     test_mirror(&light, &entity, &picture, vec3(1.2, -1.9, 0));
     test_mirror(&light, &entity, &picture, vec3(-2, -1.4, 0));
     test_upright(&light, &entity, &picture);
+    test_circle(&light, &entity, &picture, 20);
+    test_circle(&light, &entity, &picture, 0);
     image_release(&picture);
     light_release(&light);
     solid_free(&white);
