@@ -13,7 +13,9 @@
 #define NARROW_PX 4.0         /* half the way across that is looked at; other things are near */
 #define CONTRAST_MIN 0.07     /* between the two sides, in levels, 1 is white */
 #define MISFIT_MAX 0.07       /* root of the mean square, of a step's height */
-#define BESIDE_MAX 0.06       /* too: other things are too near */
+#define BESIDE_MAX 0.15       /* too: other things are too near */
+#define BESIDE_ERROR 2.0      /* of a width, relative, where other things are near by one */
+#define LONE_MAX 0.06         /* where sharpening is looked for, which shows there, too */
 #define SPREAD 0.04           /* relative standard deviation of sharp edges' widths in one photograph: by place and colour */
 #define SAME 0.7              /* a maximum as high is no chance beside a higher one */
 #define WIDTH_MIN_PX 0.2
@@ -21,7 +23,7 @@
 #define WIDTH_STEP 0.01       /* relative */
 #define TELLING_ERROR_MAX 0.25 /* of a fit's sharpening, to tell */
 #define TELLING_MIN 8         /* edges, to tell how much they were sharpened */
-#define SHARPENING_MIN 0.15   /* less is not seen, and JPEG's blocks look like it */
+#define SHARPENING_MIN 0.2    /* less is not seen, and JPEG's blocks look like it */
 #define PAIR_CELL_PX 6        /* of pictures that are compared, where what lies beside an edge is the same: */
 #define PAIR_MISFIT_MAX 0.12
 #define PAIR_ERROR_MAX 0.3    /* relative, of the width */
@@ -169,7 +171,7 @@ static bool fit_edge(struct found_edge *found, const struct brightness *b, const
 {
     struct step s;
     if (!fit_lone(&s, b, c, NARROW_PX) && !fit_lone(&s, b, c, STEP_WIDE_PX)) return false;
-    *found = (struct found_edge){ *c, s.sigma_px, s.sigma_error_px };
+    *found = (struct found_edge){ *c, s.sigma_px, hypot(s.sigma_error_px, BESIDE_ERROR * s.beside * s.sigma_px) };
     return true;
 }
 
@@ -189,7 +191,7 @@ static void find_sharpening(struct edges *e, struct weighed *values, const struc
         const struct candidate *c = &found[i].candidate;
         struct step s;
         if (fabs(found[i].sigma_px - e->sharp_px) > 2 * hypot(found[i].error_px, SPREAD * e->sharp_px)) continue;
-        if (!step_fit(&s, &b->levels, c->x, c->y, c->angle, NARROW_PX, true) || s.misfit > MISFIT_MAX) continue;
+        if (!step_fit(&s, &b->levels, c->x, c->y, c->angle, NARROW_PX, true) || s.misfit > MISFIT_MAX || s.beside > LONE_MAX) continue;
         if (!(s.sharpening_error < TELLING_ERROR_MAX)) continue;
         values[e->telling++] = (struct weighed){ s.sharpening, 1 / (0.01 + s.sharpening_error * s.sharpening_error) };
     }
