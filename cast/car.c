@@ -160,6 +160,23 @@ static void add_seats(struct shell *left, struct shell *body, const struct car_s
     part_turn(body, first, hub, 25, 0, 0);
 }
 
+/* Glass, flat as it is: a rounded one shows the sun from everywhere. Across the housing's back, with a rim round it. */
+static void add_mirror_glass(struct shell *left, struct vec3 at, struct vec3 half, int n)
+{
+    double outline[18][2];
+    const struct { double size, from, thick; int material; } plates[] = {
+        { 0.80, -0.80 * half.x, 0.20 * half.x + 0.003, TRIM_COAT }, { 0.74, -half.x - 0.003, 0.002, MIRROR_COAT }
+    };
+    for (int k = 0; k < 2; k++) {
+        for (int i = 0; i < n; i++) {
+            double c = cos(2 * PI * i / n), s = sin(2 * PI * i / n), round = plates[k].size / pow(pow(fabs(c), 3) + pow(fabs(s), 3), 1 / 3.0);
+            outline[i][0] = half.z * c * round;
+            outline[i][1] = half.y * s * round;
+        }
+        part_plate(left, vec3(at.x + plates[k].from, at.y, at.z), vec3(0, 0, 1), vec3(0, 1, 0), outline, n, plates[k].thick, plates[k].material);
+    }
+}
+
 static void add_mirror(struct shell *left, const struct car_spec *spec, const struct coach *coach, enum level level)
 {
     struct vec3 at = spec->mirror, half = spec->mirror_half;
@@ -171,7 +188,7 @@ static void add_mirror(struct shell *left, const struct car_spec *spec, const st
     if (level == FAR) return;
     double flank = coach_half_width(coach, at.x, at.z - half.z);
     first = left->points;
-    part_blob(left, vec3(at.x - 0.75 * half.x, at.y, at.z), vec3(0.3 * half.x, 0.86 * half.y, 0.82 * half.z), 0.5, n, MIRROR_COAT);
+    add_mirror_glass(left, at, half, n);
     part_turn(left, first, at, 0, -8, 0);
     if (level == NEAR)
         part_blob(left, vec3(at.x, (flank + at.y - half.y) / 2 + 0.02, at.z - 0.8 * half.z), vec3(0.035, fabs(at.y - half.y - flank) / 2 + 0.06, 0.022), 0.6, 8, TRIM_COAT);
