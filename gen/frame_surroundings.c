@@ -79,7 +79,7 @@ static bool write_ground(struct pass_surroundings *out, double color_gain[3], co
     return ok;
 }
 
-/* All who mirror the circle are within it, and all that stands before it. */
+/* All who see the circle are within it, and all that stands before it. */
 static double circle_radius(const struct frame *f, double radius_m)
 {
     struct vec3 eye = f->shot->world_from_camera.translation;

@@ -31,24 +31,24 @@ static void level_irradiance(double rgb[3], const struct image *sky)
 }
 
 /* Directions of a pixel, summed over its solid angle, / pi: exact, so that a surface above whose plane
- * the pixel lies wholly gets exactly its light. */
-static struct vec3 pixel_share(const struct image *sky, int column, int row)
-{
-    double top = sky_row_top(sky, row), bottom = sky_row_top(sky, row + 1);
-    double from = (double)column / sky->width_px * 2 * M_PI, to = from + 2 * M_PI / sky->width_px;
-    double level = ((top - bottom) / 2 + (sin(2 * top) - sin(2 * bottom)) / 4) / M_PI;
-    return vec3(level * (sin(to) - sin(from)), level * (cos(from) - cos(to)), sky_level_weight(sky, row));
-}
-
+ * the pixel lies wholly gets exactly its light. Level, they are a row's share of a column's. */
 void light_sky_irradiance(double rgb[3], const struct light *light, struct vec3 normal)
 {
     const struct image *sky = &light->sky;
+    double towards[2 * SKY_HEIGHT_MAX];
+    for (int column = 0; column < sky->width_px; column++) {
+        double from = (double)column / sky->width_px * 2 * M_PI, to = from + 2 * M_PI / sky->width_px;
+        towards[column] = (sin(to) - sin(from)) * normal.x + (cos(from) - cos(to)) * normal.y;
+    }
     rgb[0] = rgb[1] = rgb[2] = 0;
-    for (int row = 0; row < sky->height_px; row++)
+    for (int row = 0; row < sky->height_px; row++) {
+        double top = sky_row_top(sky, row), bottom = sky_row_top(sky, row + 1);
+        double level = ((top - bottom) / 2 + (sin(2 * top) - sin(2 * bottom)) / 4) / M_PI, up = sky_level_weight(sky, row) * normal.z;
         for (int column = 0; column < sky->width_px; column++) {
-            double share = fmax(0, vec3_dot(pixel_share(sky, column, row), normal));
+            double share = fmax(0, level * towards[column] + up);
             for (int c = 0; c < 3; c++) rgb[c] += share * (double)image_f32(sky, column, row)[c];
         }
+    }
 }
 
 void light_irradiance(double rgb[3], const struct light *light, struct vec3 normal)
