@@ -116,7 +116,7 @@ static bool fit_to_ground(struct frame *f, struct error *err)
     size_t n = 0;
     double radiance[3];
     bool ok = tones_of(&tones, &f->picture, err) &&
-              ground_view_of(&view, f->stage, &tones, f->camera, f->shot->world_from_camera, err);
+              ground_view_of(&view, f->stage, &tones, f->camera, f->shot->world_from_camera, GROUND_NEAR_M, err);
     if (ok && f->scene->has_mist && f->photograph[0]) ground_view_clear(&tones, &view, f->scene->visibility_m, f->scene->haze);
     ok = ok && lit_ground_find(&lit, &sample_px, &n, f->stage, &tones, &view, light->has_sun ? &light->sun_direction : NULL, f->camera,
                               f->shot, err);

@@ -68,6 +68,11 @@ static double odds_by_place(const struct shade *shade, const struct gathered *g)
     return pow((double)right / (3.0 * (double)wrong + 40), 2) * fmin(1, pow((double)shade->places / PLACES_ENOUGH, 2));
 }
 
+static double pressure_of(const struct scene *s)
+{
+    return s->has_place ? exp(-s->place.height_m / 8434.0) : 1;
+}
+
 enum among { AMONG_COMMONEST, AMONG_SURFACES, AMONG_CAST };
 
 static bool find_among(struct shade *shade, double *odds, const struct gathered *g, const struct daylight_locus *locus, enum among among,
@@ -87,12 +92,13 @@ static bool find_among(struct shade *shade, double *odds, const struct gathered 
 
 /* What the place casts is known to be shadow; but a reconstruction that lacks the trees casts few of them. Else the
  * ground's commonest surface tells, and others where it shows no shadow. */
-static bool find_shade(struct light_estimate *e, const struct gathered *g, const struct daylight_locus *locus, struct error *err)
+bool find_shade(struct light_estimate *e, const struct gathered *g, const struct scene *scene, const struct vec3 *sun, struct error *err)
 {
+    struct daylight_locus locus = daylight_locus(sun ? asin(fmin(1, sun->z)) : ELEVATION_USUAL, pressure_of(scene));
     struct shade others, cast = { 0 };
     double odds, odds_others, odds_cast = 0;
-    if (!find_among(&e->shade, &odds, g, locus, AMONG_COMMONEST, err) || !find_among(&others, &odds_others, g, locus, AMONG_SURFACES, err) ||
-        (g->by_place && !find_among(&cast, &odds_cast, g, locus, AMONG_CAST, err)))
+    if (!find_among(&e->shade, &odds, g, &locus, AMONG_COMMONEST, err) || !find_among(&others, &odds_others, g, &locus, AMONG_SURFACES, err) ||
+        (g->by_place && !find_among(&cast, &odds_cast, g, &locus, AMONG_CAST, err)))
         return false;
     e->from = SHADE_FROM_EDGES;
     bool sun_on_commonest = odds > 1;
@@ -137,11 +143,6 @@ static void open_up(struct light_estimate *e)
         e->sky_share[c] = fmin(e->shade.ratio[c] / seen, SKY_SHARE_MAX);
         e->sky_share_sigma[c] = e->sky_share[c] * hypot(e->shade.sigma[c] / e->shade.ratio[c], seen_sigma / seen);
     }
-}
-
-static double pressure_of(const struct scene *s)
-{
-    return s->has_place ? exp(-s->place.height_m / 8434.0) : 1;
 }
 
 /* The haziest sky is as bright as the sun and more, the clearest hardly a tenth: whose proportion is it? */
@@ -203,8 +204,7 @@ bool light_estimate(struct light_estimate *estimate, const struct stage *stage, 
         e.certainty = 1;
         ok = shade_of_marks(&e.shade, g.marks, g.mark_count, err);
     } else if (ok) {
-        struct daylight_locus locus = daylight_locus(has_sun ? asin(fmin(1, sun.z)) : ELEVATION_USUAL, pressure_of(s));
-        ok = find_shade(&e, &g, &locus, err);
+        ok = find_shade(&e, &g, s, has_sun ? &sun : NULL, err);
     }
     if (ok && e.clear && !has_sun) ok = sun_is_wanted(&e, s, err);
     if (ok && e.clear) {

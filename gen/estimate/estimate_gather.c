@@ -19,16 +19,25 @@ static bool out_of_memory(struct error *err)
 /* --- one photograph --- */
 
 bool look_at(struct looked_at *l, const struct stage *stage, const struct estimate_photograph *photograph, size_t index,
-                    const struct vec3 *sun, struct error *err)
+             const struct vec3 *sun, struct error *err)
+{
+    const struct scene_shot *shot = &stage->scene->shots[photograph->shot];
+    struct image image;
+    *l = (struct looked_at){ .stage = stage };
+    if (!image_read(&image, photograph->path, err)) return false;
+    bool ok = photograph_is_of_integers(&image, shot->photograph ? shot->photograph : photograph->path, err) &&
+              look_at_image(l, stage, &image, shot, index, sun, err);
+    image_release(&image);
+    return ok;
+}
+
+bool look_at_image(struct looked_at *l, const struct stage *stage, const struct image *image, const struct scene_shot *shot, size_t index,
+                   const struct vec3 *sun, struct error *err)
 {
     const struct scene *s = stage->scene;
-    struct image image;
-    *l = (struct looked_at){ .stage = stage, .shot = &s->shots[photograph->shot], .index = index };
-    if (!image_read(&image, photograph->path, err)) return false;
-    l->camera = camera_scaled(&s->cameras[l->shot->camera].camera, image.width_px, image.height_px);
-    bool ok = photograph_is_of_integers(&image, l->shot->photograph ? l->shot->photograph : photograph->path, err) && tones_of(&l->tones, &image, err);
-    image_release(&image);
-    if (!ok || !ground_view_of(&l->view, stage, &l->tones, &l->camera, l->shot->world_from_camera, err)) return false;
+    *l = (struct looked_at){ .stage = stage, .shot = shot, .index = index };
+    l->camera = camera_scaled(&s->cameras[shot->camera].camera, image->width_px, image->height_px);
+    if (!tones_of(&l->tones, image, err) || !ground_view_of(&l->view, stage, &l->tones, &l->camera, shot->world_from_camera, GROUND_NEAR_M, err)) return false;
     if (s->has_mist) ground_view_clear(&l->tones, &l->view, s->visibility_m, s->haze);
     if (!lit_ground_find(&l->lit[0], NULL, NULL, stage, &l->tones, &l->view, sun, &l->camera, l->shot, err)) return false;
     l->surfaces = lit_surfaces_find(l->lit, SHADE_SURFACES, &l->lit[0], stage, &l->tones, &l->view, sun);

@@ -35,6 +35,9 @@ struct looked_at {
 /* In: sun: unit, or NULL where it is not known */
 bool look_at(struct looked_at *l, const struct stage *stage, const struct estimate_photograph *photograph, size_t index,
              const struct vec3 *sun, struct error *err);
+/* The same with the photograph read already. */
+bool look_at_image(struct looked_at *l, const struct stage *stage, const struct image *photograph, const struct scene_shot *shot,
+                   size_t index, const struct vec3 *sun, struct error *err);
 /* Also after a failure. */
 void looked_at_release(struct looked_at *l);
 
@@ -45,5 +48,11 @@ bool gather_edges(struct gathered *g, const struct looked_at *l, struct error *e
  * Err: ERR_INPUT at the mark: clipped, or no shade */
 bool gather_marks(struct gathered *g, const struct looked_at *l, size_t shot, struct error *err);
 void gathered_release(struct gathered *g);
+
+/* Is there sun, and what stays of the light in the shade: estimate->clear, certainty, shade and from.
+ * In:  sun: unit, or NULL where it is not known
+ * Err: ERR_MEMORY */
+bool find_shade(struct light_estimate *estimate, const struct gathered *gathered, const struct scene *scene, const struct vec3 *sun,
+                struct error *err);
 
 #endif

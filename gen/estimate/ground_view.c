@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define COARSEST_M (1.0 / 3)
 #define LEVEL_COS 0.866
 #define APART 2        /* nodes from one whose slope is looked at: a mesh is rough */
 
@@ -43,20 +42,20 @@ static struct vec3 point(const struct ground_node *node)
 }
 
 /* Is the surface about a node level, and seen closely? */
-static bool is_near_and_level(const struct ground_view *v, int x, int y, bool level_by_itself)
+static bool is_near_and_level(const struct ground_view *v, int x, int y, bool level_by_itself, double coarsest_m)
 {
     const struct ground_node *at = &v->node[(size_t)y * (size_t)v->width + (size_t)x];
     if (x < APART || y < APART || x >= v->width - APART || y >= v->height - APART || !isfinite(at->range_m)) return false;
     struct vec3 right = vec3_sub(point(at + APART), point(at - APART));
     struct vec3 down = vec3_sub(point(at + APART * v->width), point(at - APART * v->width));
     double apart_px = 2 * APART * GROUND_STEP_PX;
-    if (!(vec3_norm(right) < COARSEST_M * apart_px && vec3_norm(down) < COARSEST_M * apart_px)) return false;
+    if (!(vec3_norm(right) < coarsest_m * apart_px && vec3_norm(down) < coarsest_m * apart_px)) return false;
     struct vec3 normal = vec3_cross(right, down);
     return level_by_itself || fabs(normal.z) > LEVEL_COS * vec3_norm(normal);
 }
 
 bool ground_view_of(struct ground_view *view, const struct stage *stage, const struct tones *tones,
-                    const struct camera *camera, struct pose world_from_camera, struct error *err)
+                    const struct camera *camera, struct pose world_from_camera, double coarsest_m, struct error *err)
 {
     struct ground_view v = { (tones->width_px + GROUND_STEP_PX - 1) / GROUND_STEP_PX,
                              (tones->height_px + GROUND_STEP_PX - 1) / GROUND_STEP_PX, NULL };
@@ -77,7 +76,7 @@ bool ground_view_of(struct ground_view *view, const struct stage *stage, const s
     else if (ok) meet_plane(&v, &stage->scene->ground, eye, rays);
     for (int y = 0; ok && y < v.height; y++)
         for (int x = 0; x < v.width; x++)
-            keep[(size_t)y * (size_t)v.width + (size_t)x] = is_near_and_level(&v, x, y, !stage->mesh);
+            keep[(size_t)y * (size_t)v.width + (size_t)x] = is_near_and_level(&v, x, y, !stage->mesh, coarsest_m);
     for (size_t i = 0; ok && i < n; i++)
         if (!keep[i]) v.node[i] = no_ground;
     free(rays);

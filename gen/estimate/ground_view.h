@@ -11,6 +11,7 @@
 #include <stdbool.h>
 
 #define GROUND_STEP_PX 2
+#define GROUND_NEAR_M (1.0 / 3) /* where its light can be measured */
 
 struct ground_node { float p_m[3], range_m; }; /* NaN: no level ground there, or too far away to be looked at */
 
@@ -19,11 +20,11 @@ struct ground_view {
     struct ground_node *node;  /* (height,width) owned */
 };
 
-/* Level ground (up to 30 deg) that is near enough: a working pixel covers at most a third of a metre of it.
+/* Level ground (up to 30 deg) that is near enough: a working pixel covers at most coarsest_m of it.
  * In:  camera of the photograph at its own size
  * Err: ERR_MEMORY */
 bool ground_view_of(struct ground_view *view, const struct stage *stage, const struct tones *tones,
-                    const struct camera *camera, struct pose world_from_camera, struct error *err);
+                    const struct camera *camera, struct pose world_from_camera, double coarsest_m, struct error *err);
 void ground_view_release(struct ground_view *view);
 
 /* The ground at a working pixel. False where there is none. */
