@@ -23,6 +23,7 @@ struct frame {
     bool *matters;                  /* (moment.n) seen, or shading what is seen */
     struct image motion;            /* empty: nothing blurs by moving */
     struct image picture;           /* U8, 3 channels: the photograph, or a new view's background; empty until it is read */
+    double shaded;                  /* share of the ground in view that lies in the shade of what stands in the picture */
     struct exposure exposure;       /* of the picture; of an empty frame none */
 };
 

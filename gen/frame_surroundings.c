@@ -1,5 +1,7 @@
 #include "gen/frame_impl.h"
 
+#include "gen/estimate/ground_shade.h"
+#include "gen/estimate/sun_share.h"
 #include "gen/light/orthophoto.h"
 #include "gen/light/panorama.h"
 #include "gen/light/seen.h"
@@ -52,6 +54,24 @@ static bool write(char *path, const struct frame *f, const char *name, const str
     return ok;
 }
 
+/* What of the sun reaches the ground where entities and their shadows are: on a plane the photograph tells. */
+static bool write_sun_share(struct pass_surroundings *out, struct frame *f, const struct seen *seen, struct error *err)
+{
+    if (f->scene->shade == SHADE_NONE || f->stage->mesh || !f->photograph[0] || !f->context->light->has_sun) return true;
+    struct ground_shade shade = { 0 };
+    struct receiver *receivers = calloc(f->moment.n + 1, sizeof *receivers); /* borrowed */
+    if (!receivers) return error_set(err, ERR_MEMORY, "no memory for a frame");
+    struct sun_share_input in = { .shade = &shade, .seen = seen, .ground = &f->scene->ground, .receivers = receivers };
+    for (size_t i = 0; i < f->moment.n; i++)
+        if (f->matters[i]) receivers[in.n++] = f->receivers[i];
+    bool ok = ground_shade_find(&shade, f->stage, &f->picture, seen->unhidden, f->shot, f->context->light, err) &&
+              sun_share_create(&out->sun_share, &in, err);
+    f->shaded = shade.share;
+    ground_shade_release(&shade);
+    free(receivers);
+    return ok && (!out->sun_share.map.data || write(out->sun_share_map, f, "sun-share.png", &out->sun_share.map, err));
+}
+
 static bool write_ground(struct pass_surroundings *out, double color_gain[3], const struct frame *f, const struct seen *seen,
                          struct error *err)
 {
@@ -59,7 +79,7 @@ static bool write_ground(struct pass_surroundings *out, double color_gain[3], co
     if (!entities) return error_set(err, ERR_MEMORY, "no memory for a frame");
     struct orthophoto_input in = {
         .seen = seen, .light = f->context->light, .ground = f->stage->mesh ? NULL : &f->scene->ground,
-        .ground_reflection = f->scene->ground_reflection, .place = f->stage->mesh, .place_depth = &f->labels.place_depth,
+        .sun = &out->sun_share, .ground_reflection = f->scene->ground_reflection, .place = f->stage->mesh, .place_depth = &f->labels.place_depth,
         .entities = entities,
     };
     memcpy(in.ground_albedo, f->scene->ground_albedo, sizeof in.ground_albedo);
@@ -136,6 +156,7 @@ void frame_release_surroundings(struct pass_surroundings *surroundings)
 {
     for (size_t i = 0; i < surroundings->standing_count; i++) standing_release(&surroundings->standing[i].thing);
     free(surroundings->standing);
+    sun_share_release(&surroundings->sun_share);
     *surroundings = (struct pass_surroundings){ .sky_map = "" };
 }
 
@@ -149,7 +170,7 @@ bool frame_write_surroundings(struct pass_surroundings *surroundings, struct fra
         (n && !unhidden_create(&unhidden, f->occluders, n, f->picture.width_px, f->picture.height_px, err)))
         return false;
     struct seen seen = seen_of(f, n ? &unhidden : NULL);
-    bool ok = write_ground(&out, color_gain, f, &seen, err) && write_sky(&out, color_gain, f, &seen, err) &&
+    bool ok = write_sun_share(&out, f, &seen, err) && write_ground(&out, color_gain, f, &seen, err) && write_sky(&out, color_gain, f, &seen, err) &&
               write_standing(&out, f, &seen, err);
     image_release(&unhidden);
     if (ok) *surroundings = out;

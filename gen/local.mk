@@ -8,11 +8,13 @@ gen_libgen_a_SOURCES = \
   %D%/estimate/estimate.c %D%/estimate/estimate.h %D%/estimate/estimate_impl.h \
   %D%/estimate/estimate_gather.c \
   %D%/estimate/estimate_report.c \
+  %D%/estimate/ground_shade.c %D%/estimate/ground_shade.h \
   %D%/estimate/ground_view.c %D%/estimate/ground_view.h \
   %D%/estimate/lit_ground.c %D%/estimate/lit_ground.h \
   %D%/estimate/shade.c %D%/estimate/shade.h \
   %D%/estimate/shadow_edges.c %D%/estimate/shadow_edges.h \
   %D%/estimate/sun_check.c %D%/estimate/sun_check.h \
+  %D%/estimate/sun_share.c %D%/estimate/sun_share.h \
   %D%/estimate/tones.c %D%/estimate/tones.h \
   %D%/frame.c %D%/frame.h %D%/frame_impl.h \
   %D%/frame_exposure.c \
@@ -74,6 +76,7 @@ gen_libgen_a_SOURCES = \
   %D%/render/passes.c %D%/render/passes.h \
   %D%/render/place_sdl.c %D%/render/place_sdl.h \
   %D%/render/sdl.c %D%/render/sdl.h \
+  %D%/render/shade_sdl.c %D%/render/shade_sdl.h \
   %D%/render/sky_uv.c %D%/render/sky_uv.h \
   %D%/scene/nearest.c %D%/scene/nearest.h \
   %D%/scene/scene.c %D%/scene/scene.h \

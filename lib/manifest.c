@@ -145,7 +145,7 @@ static bool walk_place(struct walk *walk, struct manifest *m)
     while (palette_name(palette) && strcmp(palette_name(palette), name) != 0) palette++;
     if (!palette_name(palette)) return walk_wrong(walk, "palette", "names no palette: %s", name);
     m->palette = (enum palette)palette;
-    return walk_text(walk, "semantic", m->semantic, sizeof m->semantic) &&
+    return walk_real(walk, "shaded", &m->shaded, 0, 1) && walk_text(walk, "semantic", m->semantic, sizeof m->semantic) &&
            walk_text(walk, "depth", m->depth, sizeof m->depth);
 }
 

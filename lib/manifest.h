@@ -12,7 +12,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define MANIFEST_VERSION 4
+#define MANIFEST_VERSION 5
 #define MANIFEST_SOFTNESS_AUTO_MAX_PX 2.5 /* so far does the window leave room for a softness that is measured */
 #define MANIFEST_SHARPENING_REACH_PX 3
 
@@ -44,6 +44,7 @@ struct manifest {
     enum palette palette;       /* of semantic/ and semantic_id/ */
     char semantic[1024];        /* the photograph's own semantic image (colours or ids), "" for none */
     char depth[1024];           /* the photograph's own depth image, "" for none */
+    double shaded;              /* share of the ground in view that the photograph shows in the shade, 0 where it was not looked for */
     bool has_mist;              /* entities and their shadows fade with distance */
     double visibility_m;        /* meteorological: contrast falls to 5 % (WMO) */
     double haze[3];             /* colour of the air far away, linear values of the photograph */

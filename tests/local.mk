@@ -57,6 +57,11 @@ tests_gen_ground_test_SOURCES = %D%/gen/ground.c %D%/tap.h
 nodist_EXTRA_tests_gen_ground_test_SOURCES = dummy.cxx
 tests_gen_ground_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/ground_shade.test
+tests_gen_ground_shade_test_SOURCES = %D%/gen/ground_shade.c %D%/gen/craig.h %D%/gen/street.h %D%/gen/view_above.h %D%/tap.h
+nodist_EXTRA_tests_gen_ground_shade_test_SOURCES = dummy.cxx
+tests_gen_ground_shade_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/enclosed.test
 tests_gen_enclosed_test_SOURCES = %D%/gen/enclosed.c %D%/gen/place.h %D%/tap.h
 nodist_EXTRA_tests_gen_enclosed_test_SOURCES = dummy.cxx
@@ -98,7 +103,7 @@ nodist_EXTRA_tests_gen_sunlit_test_SOURCES = dummy.cxx
 tests_gen_sunlit_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/estimate.test
-tests_gen_estimate_test_SOURCES = %D%/gen/estimate.c %D%/gen/craig.h %D%/gen/place.h %D%/tap.h
+tests_gen_estimate_test_SOURCES = %D%/gen/estimate.c %D%/gen/craig.h %D%/gen/place.h %D%/gen/street.h %D%/tap.h
 nodist_EXTRA_tests_gen_estimate_test_SOURCES = dummy.cxx
 tests_gen_estimate_test_LDADD = $(GEN_LIBS)
 
@@ -316,6 +321,11 @@ check_PROGRAMS += tests/gen/shaded_ground.test
 tests_gen_shaded_ground_test_SOURCES = %D%/gen/shaded_ground.c %D%/gen/solid.h %D%/tap.h
 nodist_EXTRA_tests_gen_shaded_ground_test_SOURCES = dummy.cxx
 tests_gen_shaded_ground_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/shade_povray.test
+tests_gen_shade_povray_test_SOURCES = %D%/gen/shade_povray.c %D%/gen/povray.h %D%/gen/shade.h %D%/gen/solid.h %D%/gen/view_above.h %D%/tap.h
+nodist_EXTRA_tests_gen_shade_povray_test_SOURCES = dummy.cxx
+tests_gen_shade_povray_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/shading.test
 tests_gen_shading_test_SOURCES = %D%/gen/shading.c %D%/tap.h

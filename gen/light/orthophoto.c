@@ -228,8 +228,11 @@ static bool in_shade(const struct texel *t, const struct sheet *sheet, const dou
 }
 
 /* From radiance to albedo times the trust in it, its place's own colours beside what the picture shows. */
-static void weigh_albedo(float rgbw[4], const struct texel *t, const struct sheet *sheet, const struct orthophoto *out)
+static void weigh_albedo(float rgbw[4], size_t i, const struct sheet *sheet, const struct orthophoto *out)
 {
+    const struct texel *t = &sheet->texels[i];
+    struct vec2 at = texel_middle(sheet, (int)(i % (size_t)sheet->width), (int)(i / (size_t)sheet->width));
+    double light[3], sun = sheet->in->sun ? sun_share_at(sheet->in->sun, at) : 1;
     double trust = t->known ? 1 : (double)t->trust, radiance[3];
     if (trust <= 0) return;
     for (int c = 0; c < 3; c++) {
@@ -237,7 +240,8 @@ static void weigh_albedo(float rgbw[4], const struct texel *t, const struct shee
         if (t->known) radiance[c] += (1 - (double)t->trust) * (double)t->own[c] * out->color_gain[c];
         radiance[c] /= trust;
     }
-    const double *light = in_shade(t, sheet, radiance, out->elsewhere) ? sheet->sky : sheet->open;
+    if (in_shade(t, sheet, radiance, out->elsewhere)) sun = 0;
+    for (int c = 0; c < 3; c++) light[c] = sheet->sky[c] + sun * (sheet->open[c] - sheet->sky[c]);
     for (int c = 0; c < 3; c++) rgbw[c] = (float)(trust * fmin(1, radiance[c] / light[c]));
     rgbw[3] = (float)trust;
 }
@@ -249,7 +253,7 @@ static bool settle(const struct sheet *sheet, const struct orthophoto *out, stru
     float (*rgbw)[4] = calloc(n, sizeof *rgbw);
     if (!rgbw) return error_set(err, ERR_MEMORY, "no memory for the ground round the entities");
     for (size_t i = 0; i < n; i++)
-        if (sheet->texels[i].weight > 0) weigh_albedo(rgbw[i], &sheet->texels[i], sheet, out);
+        if (sheet->texels[i].weight > 0) weigh_albedo(rgbw[i], i, sheet, out);
     bool ok = push_pull(rgbw, sheet->width, sheet->height, err);
     for (size_t i = 0; ok && i < n; i++) {
         double weight = (double)(sheet->texels[i].weight * rgbw[i][3]);

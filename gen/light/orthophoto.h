@@ -2,6 +2,7 @@
 #ifndef STAFFAGE_GEN_ORTHOPHOTO_H
 #define STAFFAGE_GEN_ORTHOPHOTO_H
 
+#include "gen/estimate/sun_share.h"
 #include "gen/light/light.h"
 #include "gen/light/seen.h"
 #include "gen/world/entity.h"
@@ -14,7 +15,7 @@
 #include <stddef.h>
 
 /* Albedo: the radiance that the picture shows over what the sun and the open sky send there; over the sky's part alone
- * where the place keeps the sun away. Real shadows that no place tells of are in it. Ground that the picture does not show is as what it shows beside it. */
+ * where the place keeps the sun away, or what of both is left in shade that the picture tells of. Other real shadows are in it. Ground that the picture does not show is as what it shows beside it. */
 struct orthophoto {
     struct image mirrored;    /* U8, 3 channels, sRGB: what mirrors show; row 0 is the northmost */
     struct image bouncing;    /* the same in texels ORTHOPHOTO_COARSE times as large: what the light bounces from */
@@ -28,6 +29,7 @@ struct orthophoto_input {
     const struct seen *seen;
     const struct light *light;
     const struct plane *ground;            /* without a place */
+    const struct sun_share *sun;           /* then; NULL: the sun reaches all of it */
     double ground_reflection;              /* of wet ground: what it mirrors of the sky is none of its albedo */
     const struct static_mesh *place;       /* NULL: the ground is a plane */
     const struct image *place_depth;       /* F32: z of the place as the picture sees it, NaN where it has none */

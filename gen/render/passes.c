@@ -3,6 +3,7 @@
 #include "gen/render/camera_sdl.h"
 #include "gen/render/mesh_sdl.h"
 #include "gen/render/sdl.h"
+#include "gen/render/shade_sdl.h"
 #include "gen/render/sky_uv.h"
 #include "lib/file.h"
 
@@ -54,6 +55,13 @@ static void write_light(struct sdl *sdl, const struct passes *p, bool object)
         sdl_declare_number(sdl, "Circle_Radius", around->circle_radius_m);
     }
     if (object || p->scene->ground_reflection > 0) sdl_include(sdl, "sky.inc");
+}
+
+static void write_shade(struct sdl *sdl, const struct passes *p)
+{
+    const struct pass_surroundings *around = p->surroundings;
+    if (p->light->has_sun && around && around->sun_share.map.data)
+        shade_sdl(sdl, &around->sun_share, around->sun_share_map, &p->ground, p->light->sun_direction, p->entities, p->entity_count);
 }
 
 static void write_entities(struct sdl *sdl, const struct passes *p, bool shapes_only)
@@ -201,6 +209,7 @@ static bool write_pass(const char *frame_folder, const char *name, const struct 
     sdl_include(&sdl, "settings.inc");
     camera_write(&sdl, &p->view, p->world_from_camera);
     write_light(&sdl, p, !receivers);
+    write_shade(&sdl, p);
     write_ground(&sdl, p, !receivers);
     if (receivers) write_receivers(&sdl, p, entities);
     else write_surroundings(&sdl, p);

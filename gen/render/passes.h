@@ -2,6 +2,7 @@
 #ifndef STAFFAGE_GEN_PASSES_H
 #define STAFFAGE_GEN_PASSES_H
 
+#include "gen/estimate/sun_share.h"
 #include "gen/world/entity.h"
 #include "gen/light/light.h"
 #include "gen/light/standing.h"
@@ -43,6 +44,8 @@ struct pass_surroundings {
     double circle_radius_m;            /* mirrors see it on; 0: it is as far away as the sky */
     struct pass_standing *standing; /* (standing_count) */
     size_t standing_count;
+    struct sun_share sun_share;     /* of all passes, on a plane */
+    char sun_share_map[SURROUNDINGS_PATH_SIZE];
 };
 
 /* All that the three scenes of a frame say. */
@@ -59,7 +62,7 @@ struct passes {
     const struct shaded_ground *receivers; /* lit */
     /* Of place_include_write and shades_include_write, relative to the output folder; NULL: the ground is a plane. */
     const char *place_include, *shades_include;
-    const struct pass_surroundings *surroundings; /* of the object pass; NULL: bare ground of the scene's albedo under the sky */
+    const struct pass_surroundings *surroundings; /* of the object pass, but for sun_share; NULL: bare ground of the scene's albedo under the sky */
 };
 
 /* Write object.pov, plane.pov and shadow.pov into frame_folder. */

@@ -116,6 +116,7 @@ struct scene_occluder {
 };
 
 enum sky_kind { SKY_CLEAR, SKY_OVERCAST, SKY_CIE, SKY_MAP, SKY_AUTO };
+enum shade_kind { SHADE_AUTO, SHADE_NONE };
 enum sun_kind { SUN_NONE, SUN_BY_TIME, SUN_GIVEN, SUN_IN_MAP };
 enum transfer_kind { TRANSFER_LAYERS, TRANSFER_RATIO, TRANSFER_THRESHOLD, TRANSFER_ALPHA };
 enum overwrite_side { OVERWRITE_ABOVE, OVERWRITE_BELOW };
@@ -185,6 +186,7 @@ struct scene {
     double sky_share[3];
     struct scene_mark *marks;  /* AUTO */
     size_t mark_count;
+    enum shade_kind shade;     /* on a plane, what of its ground the photograph shows in the shade */
     double fill;               /* shadowless light on entities, as a share of the light in the open */
 
     char *osm;                 /* resolved path of the road map, or NULL */

@@ -23,6 +23,7 @@ NAMES(sky_name, [SKY_CLEAR] = "clear", [SKY_OVERCAST] = "overcast", [SKY_CIE] = 
 NAMES(auto_name, "auto")
 NAMES(sun_name, "auto", "none")
 NAMES(trait_name, "auto", "none")
+NAMES(shade_name, [SHADE_AUTO] = "auto", [SHADE_NONE] = "none")
 NAMES(transfer_name, [TRANSFER_LAYERS] = "layers", [TRANSFER_RATIO] = "ratio", [TRANSFER_THRESHOLD] = "threshold",
       [TRANSFER_ALPHA] = "alpha")
 NAMES(overwrite_name, [OVERWRITE_ABOVE] = "above", [OVERWRITE_BELOW] = "below")
@@ -131,6 +132,7 @@ static const struct schema_key keys[] = {
     { "light.shadows[].lit_px", TYPE_NUMBERS, "px", .presence = REQUIRED, COUNT(2), LIMITS(0, PIXELS_MAX) },
     { "light.shadows[].shade_px", TYPE_NUMBERS, "px", .presence = REQUIRED, COUNT(2), LIMITS(0, PIXELS_MAX) },
     { "light.shadows[].shot", TYPE_INTEGER, .preset = "0", LIMITS(0, FRAME_MAX) },
+    { "light.shade", TYPE_CHOICE, .preset = "auto", .choice = shade_name },
     { "light.fill", TYPE_NUMBER, .preset = "0", LIMITS(0, 1) },
 
     { "ground", TYPE_MAPPING, SECTION },

@@ -16,6 +16,7 @@ const char *world_direction_name(int i);/* enum world_direction */
 const char *class_choice_name(int i);   /* enum entity_class */
 const char *model_axis_name(int i);     /* enum axis, then x y z for +x +y +z */
 const char *sky_name(int i);            /* enum sky_kind */
+const char *shade_name(int i);          /* enum shade_kind */
 const char *sun_name(int i);            /* auto, none */
 const char *trait_name(int i);          /* of the camera: auto, none */
 const char *transfer_name(int i);       /* enum transfer_kind */

@@ -137,6 +137,7 @@ bool scene_read_light(const struct reading *r, const struct yaml_node *node)
     scene->turbidity = number_at(node, "turbidity");
     scene->sun_scale = number_at(node, "sun_scale");
     scene->fill = number_at(node, "fill");
+    scene->shade = (enum shade_kind)schema_choice(shade_name, yaml_get(node, "shade"));
     scene->sun_source = source_of(yaml_get(node, "sun"));
 
     static const struct { const char *key; enum sky_kind sky; const char *why; } only[] = {

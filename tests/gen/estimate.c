@@ -6,92 +6,18 @@
 #include "lib/image.h"
 #include "tests/gen/craig.h"
 #include "tests/gen/place.h"
+#include "tests/gen/street.h"
 #include "tests/tap.h"
 
-enum { WIDTH = 600, HEIGHT = 480 };
-#define DEG (M_PI / 180)
-
-static const struct camera lens = { .model = CAMERA_PINHOLE, .width_px = WIDTH, .height_px = HEIGHT, .params = { 500, 500, 300, 240 } };
-static const char file[] = "estimate-test.png";
-
-/* From 25 m straight down on (0, 20): a pixel is 5 cm of the ground. */
-static struct pose above(void)
-{
-    return (struct pose){ mat3_from_columns(vec3(1, 0, 0), vec3(0, -1, 0), vec3(0, 0, -1)), vec3(0, 20, 25) };
-}
-static struct vec3 ground_at(int x, int y) { return vec3((x + 0.5 - 300) * 0.05, 20 - (y + 0.5 - 240) * 0.05, 0); }
-
-/* What a made photograph shows. */
-struct made {
-    double ratio[3];               /* of the shade */
-    double balance[3];             /* of the camera */
-    double haze, visibility_m;     /* 0: none */
-    bool (*shade)(struct vec3 p);  /* NULL: the mesh's */
-    const struct static_mesh *mesh;
-    struct vec3 sun;
-};
-
-static bool no_shade(struct vec3 p) { (void)p; return false; }
-/* A lamp post with its arm, a wall's long edge and a hedge. */
-static bool street_shade(struct vec3 p)
-{
-    return (fabs(p.x - 3 - 0.3 * (p.y - 20)) < 0.5 && p.y > 12) || p.x > 9 + 0.1 * p.y || (p.y < 11 && sin(p.x * 1.3) > 0.2);
-}
-
-/* Asphalt with grain, tar, paint, a yellow line and a tan sidewalk. */
-static void albedo_at(double rgb[3], struct vec3 p, uint32_t grain)
-{
-    double grey = 0.2 * (1 + 0.25 * ((double)(grain >> 16 & 255) / 255 - 0.5));
-    if (fabs(p.x + 6 - sin(p.y)) < 0.35) grey *= 0.55;
-    if (p.y > 24 && p.y < 27 && fmod(p.x + 40, 2) < 0.8) grey = 0.5;
-    rgb[0] = rgb[1] = rgb[2] = grey;
-    if (fabs(p.y - 15) < 0.3) rgb[2] *= 0.25;
-    if (p.x < -11) {
-        rgb[0] = 0.4;
-        rgb[1] = 0.34;
-        rgb[2] = 0.25;
-    }
-}
-
-static bool is_shaded(const struct made *m, struct vec3 p)
-{
-    return m->shade ? m->shade(p) : static_mesh_blocks(m->mesh, p, m->sun, 0.01, 1000);
-}
+static char file[] = "estimate-test.png";
 
 static void make(const struct made *m)
 {
     struct error err = ERROR_NONE;
-    struct image linear, srgb;
-    uint32_t grain = 7;
-    if (!image_init(&linear, WIDTH, HEIGHT, 3, PIXEL_F32, &err)) abort();
-    for (int y = 0; y < HEIGHT; y++)
-        for (int x = 0; x < WIDTH; x++) {
-            struct vec3 p = ground_at(x, y);
-            double rgb[3], open = 0, through = m->haze > 0 ? pow(0.05, hypot(25, hypot(p.x, p.y - 20)) / m->visibility_m) : 1;
-            grain = grain * 1664525u + 1013904223u;
-            albedo_at(rgb, p, grain);
-            /* Penumbra, 15 cm wide. */
-            for (int i = -1; i <= 1; i++)
-                for (int k = -1; k <= 1; k++) open += !is_shaded(m, vec3(p.x + 0.05 * i, p.y + 0.05 * k, 0)) / 9.0;
-            for (int c = 0; c < 3; c++) {
-                double light = open + (1 - open) * m->ratio[c];
-                image_f32(&linear, x, y)[c] = (float)(through * 1.6 * m->balance[c] * rgb[c] * light + (1 - through) * m->haze);
-            }
-        }
-    if (!image_srgb_from_linear(&srgb, &linear, &err) || !image_write(file, &srgb, &err)) OK(false, "%s", err.text);
-    image_release(&linear);
+    struct image srgb;
+    make_image(&srgb, m);
+    if (!image_write(file, &srgb, &err)) OK(false, "%s", err.text);
     image_release(&srgb);
-}
-
-/* A scene about it, without a file. */
-static struct scene scene_of(struct scene_camera *camera, struct scene_shot *shot)
-{
-    static char path[] = "scene.yaml", photograph[] = "estimate-test.png";
-    *camera = (struct scene_camera){ .camera = lens };
-    *shot = (struct scene_shot){ .photograph = photograph, .world_from_camera = above() };
-    return (struct scene){ .path = path, .cameras = camera, .camera_count = 1, .shots = shot, .shot_count = 1, .sky = SKY_AUTO,
-                           .light_source = { 8, 8 }, .sun = SUN_GIVEN, .sun_azimuth_rad = 200 * DEG, .sun_elevation_rad = 40 * DEG,
-                           .ground = { { 0, 0, 1 }, 0 }, .ground_albedo = { 0.2, 0.2, 0.2 }, .exposure_of_ground = true, .scale = 1 };
 }
 
 static bool estimate_in(struct light_estimate *e, struct scene *scene, struct static_mesh *mesh, struct error *err)
@@ -118,7 +44,7 @@ static void on_a_plane(void)
 {
     struct scene_camera camera;
     struct scene_shot shot;
-    struct scene scene = scene_of(&camera, &shot);
+    struct scene scene = scene_of(&camera, &shot, file);
     struct made m = { .ratio = { 0.15, 0.2, 0.3 }, .balance = { 1.1, 1, 0.8 }, .shade = street_shade };
     make(&m);
     struct light_estimate e = estimate(&scene, NULL), again = estimate(&scene, NULL);
@@ -137,7 +63,7 @@ static void on_a_plane(void)
         light_release(&light);
     }
 
-    scene = scene_of(&camera, &shot);
+    scene = scene_of(&camera, &shot, file);
     scene.sun = SUN_NONE;
     OK(!estimate_in(&e, &scene, NULL, &err) && err.line == 8 && strstr(err.text, "give place and time"), "sun that nobody knows the place of: %s",
        err.text);
@@ -145,7 +71,7 @@ static void on_a_plane(void)
     m.haze = 0.5;
     m.visibility_m = 60;
     make(&m);
-    scene = scene_of(&camera, &shot);
+    scene = scene_of(&camera, &shot, file);
     scene.has_mist = true;
     scene.visibility_m = 60;
     for (int c = 0; c < 3; c++) scene.haze[c] = 0.5;
@@ -154,7 +80,7 @@ static void on_a_plane(void)
 
     m = (struct made){ .ratio = { 1, 1, 1 }, .balance = { 1, 1, 1.1 }, .shade = no_shade };
     make(&m);
-    scene = scene_of(&camera, &shot);
+    scene = scene_of(&camera, &shot, file);
     e = estimate(&scene, NULL);
     OK(!e.clear && e.certainty > 0.8, "without a shadow it is overcast, sure to %.2f", e.certainty);
     light_estimate_apply(&scene, &e);
@@ -166,7 +92,7 @@ static void marks(void)
     struct error err = ERROR_NONE;
     struct scene_camera camera;
     struct scene_shot shot;
-    struct scene scene = scene_of(&camera, &shot);
+    struct scene scene = scene_of(&camera, &shot, file);
     struct made m = { .ratio = { 0.3, 0.35, 0.4 }, .balance = { 1, 1, 1 }, .shade = street_shade };
     struct scene_mark mark[2] = { { { 300, 240 }, { 360, 240 }, 0, { 12, 7 } }, { { 460, 80 }, { 570, 80 }, 0, { 13, 7 } } };
     make(&m);
@@ -190,7 +116,7 @@ static void over_a_mesh(void)
 {
     struct scene_camera camera;
     struct scene_shot shot;
-    struct scene scene = scene_of(&camera, &shot);
+    struct scene scene = scene_of(&camera, &shot, file);
     struct error err = ERROR_NONE;
     struct place place = { 0 };
     struct static_mesh *mesh = NULL;

@@ -40,6 +40,7 @@ static struct manifest whole_manifest(void)
         .palette = PALETTE_UAVID,
         .semantic = "/labels/semantic.png",
         .depth = "/labels/depth.exr",
+        .shaded = 1 / 7.0,
         .has_mist = true,
         .visibility_m = 1e4 / 3,
         .haze = { 0.7, 0.8, 0.1 + 0.2 },
@@ -87,7 +88,7 @@ static bool same(const struct manifest *a, const struct manifest *b)
            a->overwrite_below == b->overwrite_below && a->mask_dilated == b->mask_dilated &&
            a->has_shares == b->has_shares && a->new_view == b->new_view && a->has_place == b->has_place &&
            a->has_place_labels == b->has_place_labels && a->palette == b->palette && !strcmp(a->semantic, b->semantic) &&
-           !strcmp(a->depth, b->depth) && a->has_mist == b->has_mist && a->visibility_m == b->visibility_m &&
+           !strcmp(a->depth, b->depth) && a->shaded == b->shaded && a->has_mist == b->has_mist && a->visibility_m == b->visibility_m &&
            !memcmp(a->haze, b->haze, sizeof a->haze) && a->has_motion == b->has_motion &&
            a->defocus_px == b->defocus_px && a->focus_m == b->focus_m && a->softness_px == b->softness_px &&
            a->softness_auto == b->softness_auto && a->sharpening_auto == b->sharpening_auto && a->sharpening == b->sharpening && a->grain_auto == b->grain_auto && a->grain == b->grain &&

@@ -1,0 +1,192 @@
+/* Shade on the ground of photographs: of one whose shade is known everywhere, and of a real one at pixels picked by eye. */
+#include "gen/estimate/ground_shade.h"
+#include "gen/estimate/sun_share.h"
+
+#include "tests/gen/craig.h"
+#include "tests/gen/street.h"
+#include "tests/gen/view_above.h"
+#include "tests/tap.h"
+
+#define SKY_SEEN 0.8 /* of the sky, by what casts shadows */
+
+static struct stage stage_of(const struct scene *scene)
+{
+    return (struct stage){ .scene = scene, .surface = { .plane = scene->ground } };
+}
+
+/* A light whose shadows have this ratio, if they see SKY_SEEN of the sky. */
+static bool light_of(struct light *light, struct scene *scene, const double ratio[3])
+{
+    struct error err = ERROR_NONE;
+    scene->sky = SKY_CLEAR;
+    scene->turbidity = 3;
+    scene->sun_scale = 1;
+    scene->has_sky_share = true;
+    for (int c = 0; c < 3; c++) scene->sky_share[c] = ratio[c] / SKY_SEEN;
+    return OK(light_create(light, scene, &err), "light %s", err.text);
+}
+
+/* Is it the same some way round a point? */
+static bool is_same_around(struct vec3 p, double way_m)
+{
+    for (int i = 0; i < 16; i++)
+        if (street_shade(vec3(p.x + way_m * cos(i * M_PI / 8), p.y + way_m * sin(i * M_PI / 8), 0)) != street_shade(p)) return false;
+    return true;
+}
+
+static bool is_tar(struct vec3 p) { return fabs(p.x + 6 - sin(p.y)) < 0.3; }
+static bool is_paint(struct vec3 p) { return p.y > 24.1 && p.y < 26.9 && fmod(p.x + 40, 2) < 0.7; }
+
+struct count { int right, all; };
+static double part(struct count c) { return (double)c.right / fmax(1, c.all); }
+static void add(struct count *c, bool right) { c->right += right, c->all++; }
+
+/* The map over all of the street but its rim. In: unhidden or NULL */
+static bool map_of(struct sun_share *share, struct ground_shade *shade, struct scene *scene, const struct image *image,
+                   const struct image *unhidden, const struct light *light)
+{
+    struct error err = ERROR_NONE;
+    struct stage stage = stage_of(scene);
+    struct vec3 corner[] = { { -10, 10, 0 }, { 13, 10, 0 }, { 13, 30, 0 }, { -10, 30, 0 } };
+    struct receiver receiver = { .corner_m = corner, .corners = 4 };
+    struct seen seen = { .picture = image, .camera = &lens, .world_from_camera = above(), .k = { 2, 3, 4 }, .unhidden = unhidden };
+    seen_init(&seen);
+    struct sun_share_input in = { .shade = shade, .seen = &seen, .ground = &scene->ground, .receivers = &receiver, .n = 1 };
+    return OK(ground_shade_find(shade, &stage, image, unhidden, &scene->shots[0], light, &err) && sun_share_create(share, &in, &err),
+              "the shade is looked for %s", err.text);
+}
+
+static void test_street(void)
+{
+    struct scene_camera camera;
+    struct scene_shot shot;
+    static char name[] = "street.png";
+    struct scene scene = scene_of(&camera, &shot, name);
+    struct made m = { .ratio = { 0.15, 0.2, 0.3 }, .balance = { 1.1, 1, 0.8 }, .shade = street_shade };
+    struct error err = ERROR_NONE;
+    struct image image, unhidden;
+    struct light light;
+    struct ground_shade shade;
+    struct sun_share share, again;
+    struct count lit = { 0 }, dark = { 0 }, tar = { 0 }, paint = { 0 }, hidden = { 0 }, line = { 0 };
+    make_image(&image, &m);
+    if (!light_of(&light, &scene, m.ratio) || !map_of(&share, &shade, &scene, &image, NULL, &light)) return;
+    double truth = 0;
+    for (int y = 0; y < STREET_HEIGHT; y++)
+        for (int x = 0; x < STREET_WIDTH; x++) truth += street_shade(ground_at(x, y)) / (double)(STREET_WIDTH * STREET_HEIGHT);
+    NEAR(shade.share, truth, 0.06, "so much of the ground in view is shaded");
+    for (double y = 10.1; y < 29.9; y += 0.1)
+        for (double x = -9.9; x < 12.9; x += 0.1) {
+            struct vec3 p = vec3(x, y, 0);
+            bool shaded = street_shade(p);
+            double sun = sun_share_at(&share, (struct vec2){ x, y });
+            if (!is_same_around(p, 0.25)) continue;
+            add(shaded ? &dark : &lit, shaded ? sun < 0.15 : sun > 0.9);
+            if (shaded && is_paint(p)) add(&paint, sun < 0.15);
+            if (shaded && fabs(y - 15) < 0.25) add(&line, sun < 0.15);
+            if (!shaded && is_tar(p)) add(&tar, sun > 0.9);
+        }
+    OK(part(lit) > 0.995, "what is in the sun is lit: %.4f of it", part(lit));
+    OK(part(dark) > 0.97, "what is not is shaded: %.4f", part(dark));
+    OK(tar.all > 300 && part(tar) > 0.99, "tar in the sun is no shade: %.4f of %d", part(tar), tar.all);
+    OK(paint.all > 40 && part(paint) > 0.9, "white paint in the shade is shaded: %.4f of %d", part(paint), paint.all);
+    OK(line.all > 40 && part(line) > 0.9, "a yellow line in the shade, too: %.4f of %d", part(line), line.all);
+    NEAR(sun_share_at(&share, (struct vec2){ 50, 0 }), 1, 0, "far away the ground is lit");
+
+    /* Two signs before the ground, one before its shade. */
+    if (!image_init(&unhidden, STREET_WIDTH, STREET_HEIGHT, 1, PIXEL_U8, &err)) return;
+    for (int y = 0; y < STREET_HEIGHT; y++)
+        for (int x = 0; x < STREET_WIDTH; x++) {
+            struct vec3 p = ground_at(x, y);
+            *image_u8(&unhidden, x, y) = hypot(p.x - 11.8, p.y - 20) < 0.6 || hypot(p.x + 1, p.y - 20) < 0.6 ? 0 : 255;
+        }
+    for (int y = 0; y < STREET_HEIGHT; y++)
+        for (int x = 0; x < STREET_WIDTH; x++)
+            if (!*image_u8(&unhidden, x, y)) fill_px(&image, x, y, x + 1, y + 1, 0.6, 0.1, 0.1);
+    struct ground_shade behind;
+    if (map_of(&again, &behind, &scene, &image, &unhidden, &light)) {
+        for (int i = 0; i < 16; i++) {
+            add(&hidden, sun_share_at(&again, (struct vec2){ 11.8 + 0.4 * cos(i), 20 + 0.4 * sin(i) }) < 0.15);
+            add(&hidden, sun_share_at(&again, (struct vec2){ -1 + 0.4 * cos(i), 20 + 0.4 * sin(i) }) > 0.9);
+        }
+        OK(part(hidden) > 0.99, "what a sign hides is as the ground beside it: %.3f", part(hidden));
+        sun_share_release(&again);
+        ground_shade_release(&behind);
+    }
+    sun_share_release(&share);
+    ground_shade_release(&shade);
+    light_release(&light);
+    image_release(&image);
+    image_release(&unhidden);
+}
+
+/* Photographs whose dark ground is no shade of the light that the scene has. */
+static void test_no_shade(void)
+{
+    static const struct { struct made made; double light[3]; const char *what; } cases[] = {
+        { { .ratio = { 1, 1, 1 }, .balance = { 1, 1, 1 }, .shade = no_shade }, { 0.15, 0.2, 0.3 }, "a street with no shade has none" },
+        { { .ratio = { 0.2, 0.2, 0.2 }, .balance = { 1, 1, 1 }, .shade = street_shade }, { 0.15, 0.2, 0.3 }, "dark asphalt, as grey as the other, is no shade" },
+        { { .ratio = { 0.15, 0.2, 0.3 }, .balance = { 1, 1, 1 }, .shade = street_shade }, { 0.5, 0.58, 0.7 }, "what is much deeper than the light's shade is none" },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct scene_camera camera;
+        struct scene_shot shot;
+        static char name[] = "street.png";
+        struct scene scene = scene_of(&camera, &shot, name);
+        struct image image;
+        struct light light;
+        struct ground_shade shade;
+        struct sun_share share;
+        make_image(&image, &cases[i].made);
+        if (!light_of(&light, &scene, cases[i].light) || !map_of(&share, &shade, &scene, &image, NULL, &light)) return;
+        OK(!shade.found && !share.map.data && !(shade.share > 0), "%s", cases[i].what);
+        NEAR(sun_share_at(&share, (struct vec2){ 11, 20 }), 1, 0, "the sun reaches all of it");
+        light_release(&light);
+        image_release(&image);
+    }
+}
+
+/* On craig's ground in the morning sun. */
+static const int craig_shade[][2] = { { 888, 1415 }, { 1250, 1298 }, { 1408, 1344 }, { 653, 1325 }, { 459, 1321 }, { 204, 1388 }, { 850, 1440 },
+                                      { 880, 1400 }, { 1260, 1280 }, { 100, 840 }, { 835, 473 } };
+static const int craig_sun[][2] = { { 975, 1415 }, { 1250, 1395 }, { 1462, 1344 }, { 653, 1395 }, { 459, 1369 }, { 900, 340 }, { 1000, 900 }, { 560, 730 },
+                                    { 1185, 895 }, { 1250, 1000 }, { 1345, 718 }, { 1730, 890 }, { 1950, 1440 }, { 700, 870 }, { 1500, 600 }, { 850, 1100 } };
+
+static void test_craig(void)
+{
+    struct error err = ERROR_NONE;
+    struct scene *scene = NULL;
+    struct image image = { 0 };
+    struct light light;
+    struct ground_shade shade;
+    if (!tap_shared()) {
+        SKIP("shade, tar, drain covers and markings on craig's asphalt", "no ../shared");
+        return;
+    }
+    bool ok = craig_scene(&scene, "sunny_2021-05-01T14-53-40.jpg",
+                          "north_deg: 40\nlight: {sky: clear, sky_share: [0.14, 0.18, 0.26]}\nexposure: {patch_px: [890, 690, 1030, 780]}", &err) &&
+              image_read(&image, scene->shots[0].photograph, &err) && light_create(&light, scene, &err);
+    struct stage stage = stage_of(scene);
+    if (!OK(ok && ground_shade_find(&shade, &stage, &image, NULL, &scene->shots[0], &light, &err), "craig in the sun %s", err.text)) return;
+    for (size_t i = 0; i < sizeof craig_shade / sizeof *craig_shade + sizeof craig_sun / sizeof *craig_sun; i++) {
+        bool shaded = i < sizeof craig_shade / sizeof *craig_shade;
+        const int *q = shaded ? craig_shade[i] : craig_sun[i - sizeof craig_shade / sizeof *craig_shade];
+        double linear[3], sun = -1;
+        for (int c = 0; c < 3; c++) linear[c] = (double)linear_from_srgb(image_u8(&image, q[0], q[1])[c] / 255.0f);
+        ground_shade_sun(&shade, &sun, (struct vec2){ q[0] + 0.5, q[1] + 0.5 }, linear);
+        NEAR(sun, shaded ? 0 : 1, 0.1, "%s at pixel %d, %d", shaded ? "shade" : "sun", q[0], q[1]);
+    }
+    OK(shade.share > 0.02 && shade.share < 0.08, "%.3f of the ground is shaded", shade.share);
+    ground_shade_release(&shade);
+    light_release(&light);
+    image_release(&image);
+    scene_destroy(scene);
+}
+
+int main(void)
+{
+    test_street();
+    test_no_shade();
+    test_craig();
+    return tap_done();
+}
