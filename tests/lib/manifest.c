@@ -166,12 +166,12 @@ int main(void)
     manifest = whole_manifest();
     bool done = manifest_write(path, &manifest, &err) && file_read(&first, &size, path, &err) &&
                 manifest_write(path, &manifest, &err) && file_read(&second, &size, path, &err);
-    OK(done && !strcmp(first, second) && !strncmp(first, "{\n \"version\": 4,\n \"frame\": \"000123\"", 33),
+    OK(done && !strcmp(first, second) && !strncmp(first, "{\n \"version\": 5,\n \"frame\": \"000123\"", 33),
        "the same manifest is the same bytes, version first");
 
-    refuses("\"version\": 4", "\"version\": 3", "\"version\" is 3, this program reads 4", "another version");
-    refuses("\"version\": 4", "\"version\": 4.0", "\"version\" must be a whole number", "a version that is no number of ours");
-    refuses("\"version\": 4,", "", "\"version\" is missing", "a file without a version");
+    refuses("\"version\": 5", "\"version\": 3", "\"version\" is 3, this program reads 5", "another version");
+    refuses("\"version\": 5", "\"version\": 5.0", "\"version\" must be a whole number", "a version that is no number of ours");
+    refuses("\"version\": 5,", "", "\"version\" is missing", "a file without a version");
     refuses("\"empty\": false,", "", "\"empty\" is missing", "a missing key");
     refuses("\"params\"", "\"parms\"", "\"camera.params\" is missing", "a missing key of an object");
     refuses("\"id\": 65535,", "", "\"entities[1].id\" is missing", "a missing key of an entity");
