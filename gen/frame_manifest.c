@@ -37,9 +37,9 @@ bool frame_write_manifest(const struct frame *f, const struct frame_result *resu
         .shaded = f->shaded, .has_mist = s->has_mist, .visibility_m = s->visibility_m, .haze = { s->haze[0], s->haze[1], s->haze[2] },
         .has_motion = f->motion.data != NULL, .defocus_px = s->defocus_px, .focus_m = s->focus_m,
         .softness_auto = s->softness_auto, .sharpening_auto = s->sharpening_auto, .grain_auto = s->grain_auto,
-        .vignetting_auto = s->vignetting_auto, .highlights_auto = s->highlights_auto, .compression_auto = s->compression_auto,
+        .vignetting_auto = s->vignetting_auto, .highlights_auto = s->highlights_auto, .blacks_auto = s->blacks_auto, .compression_auto = s->compression_auto,
         .softness_px = s->softness_px, .sharpening = s->sharpening, .grain = s->grain, .vignetting = s->vignetting,
-        .highlights = s->highlights, .seed = s->seed, .entity_count = f->moment.n,
+        .highlights = s->highlights, .blacks = s->blacks, .seed = s->seed, .entity_count = f->moment.n,
     };
     memcpy(m.exposure, f->exposure.k, sizeof m.exposure);
     memcpy(m.exposure_median, f->exposure.median, sizeof m.exposure_median);

@@ -169,6 +169,7 @@ static bool walk_hand(struct walk *walk, struct manifest *m)
            walk_bool(walk, "grain_auto", &m->grain_auto) && walk_real(walk, "grain", &m->grain, 0, 100) &&
            walk_bool(walk, "vignetting_auto", &m->vignetting_auto) && walk_real(walk, "vignetting", &m->vignetting, 0, 0.95) &&
            walk_bool(walk, "highlights_auto", &m->highlights_auto) && walk_real(walk, "highlights", &m->highlights, 0, 1) &&
+           walk_bool(walk, "blacks_auto", &m->blacks_auto) && walk_real(walk, "blacks", &m->blacks, 0, 100) &&
            walk_bool(walk, "compression_auto", &m->compression_auto) && walk_int(walk, "seed", &m->seed, 0, INT_MAX);
 }
 

@@ -53,12 +53,13 @@ struct manifest {
     double defocus_px;          /* diameter of the blur at infinite distance, in px, 0: none */
     double focus_m;             /* distance of focus: diameter at z is defocus_px * |1 - focus_m / z| */
     /* what is measured on the photograph (auto), or else given; a new view has none to measure on */
-    bool softness_auto, sharpening_auto, grain_auto, vignetting_auto, highlights_auto, compression_auto;
+    bool softness_auto, sharpening_auto, grain_auto, vignetting_auto, highlights_auto, blacks_auto, compression_auto;
     double softness_px;         /* standard deviation of a blur that all of the photograph has; 0: none */
     double sharpening;          /* part of what the photograph differs by from itself blurred, that was added to it */
     double grain;               /* standard deviation of the noise in 8-bit levels; 0: none */
     double vignetting;          /* share of the light that the corners lose; 0: none */
     double highlights;          /* linear value from which they are compressed; 0: none */
+    double blacks;              /* level, 0 to 255, that comes out as 0; 0: none */
     int seed;                   /* of the scene, for the grain */
     struct manifest_entity *entities;
     size_t entity_count;

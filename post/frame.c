@@ -110,7 +110,9 @@ static bool merge(struct frame_input *f, const struct image *classes, struct err
     struct hand hand;
     const struct image *visible = m->has_shares ? &f->visible : NULL;
     bool ok = find_hand(&hand, f, err) && window_cut(&cut, &f->rgb, m->view.window_px, err) &&
-              image_linear_from_srgb(&linear, &cut, err) && through_lens(f, &hand, &linear, err);
+              image_linear_from_srgb(&linear, &cut, err);
+    if (ok && hand.black > 0) blacks_lift_image(&linear, &cut, hand.black);
+    ok = ok && through_lens(f, &hand, &linear, err);
     if (ok) {
         struct transfer_input in = {
             .photograph = &linear, .object = &f->layers[OBJECT], .plane = &f->layers[PLANE], .shadow = &f->layers[SHADOW],

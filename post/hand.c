@@ -32,6 +32,14 @@ static void take_highlights(struct hand *h, const struct manifest *m, const stru
     h->knee = h->highlights.told ? h->highlights.knee : 1;
 }
 
+static void take_blacks(struct hand *h, const struct manifest *m, const struct image *rgb)
+{
+    h->black = m->blacks;
+    if (!m->blacks_auto) return;
+    blacks_measure(&h->blacks, rgb);
+    h->black = h->blacks.level;
+}
+
 /* A picture that was scaled has no blocks any more. */
 static bool take_compression(struct hand *h, const struct manifest *m, const char *path, struct error *err)
 {
@@ -74,6 +82,7 @@ static bool measure(struct hand *h, const struct manifest *m, const struct image
     }
     take_vignetting(h, m, &patches);
     take_highlights(h, m, rgb);
+    take_blacks(h, m, rgb);
     flat_patches_release(&patches);
     return ok;
 }
@@ -90,7 +99,7 @@ bool hand_measure(struct hand *hand, const struct manifest *m, const struct imag
     /* No camera took a new view: what is to be measured is not there. */
     struct manifest given = *m;
     if (m->new_view)
-        given.softness_auto = given.sharpening_auto = given.grain_auto = given.vignetting_auto = given.highlights_auto = given.compression_auto = false;
+        given.softness_auto = given.sharpening_auto = given.grain_auto = given.vignetting_auto = given.highlights_auto = given.blacks_auto = given.compression_auto = false;
     if (!measure(&h, &given, rgb, path, object, err)) return false;
     *hand = h;
     return true;
@@ -103,9 +112,9 @@ static uint8_t byte_of(float level)
     return (uint8_t)((level > 0 ? level < 255 ? level : 255 : 0) + 0.5f);
 }
 
-/* Values that changed, as levels; those that did not keep theirs, and so do those that stay the same byte. */
+/* Values that changed, as the camera's levels; those that did not keep theirs, and so do those that stay the same byte. */
 static bool levels_take(struct image *levels, const struct image *rgb, const struct image *before, const struct image *after,
-                        struct rect w, struct error *err)
+                        double black, struct rect w, struct error *err)
 {
     if (!image_init(levels, after->width_px, after->height_px, 3, PIXEL_F32, err)) return false;
     for (int y = 0; y < after->height_px; y++) {
@@ -114,7 +123,7 @@ static bool levels_take(struct image *levels, const struct image *rgb, const str
         float *to = image_f32(levels, 0, y);
         for (int i = 0; i < 3 * after->width_px; i++) {
             float v = now[i] > 0 ? now[i] < 1 ? now[i] : 1 : 0;
-            to[i] = now[i] == then[i] ? own[i] : srgb_from_linear(v) * 255;
+            to[i] = now[i] == then[i] ? own[i] : (float)blacks_crush(black, (double)srgb_from_linear(v) * 255);
         }
     }
     return true;
@@ -175,7 +184,7 @@ bool hand_develop(struct image *rgb, const struct hand *hand, const struct manif
     struct image levels = { 0 }, cover = { 0 };
     struct rect w = m->view.window_px;
     struct draw_key key = { .seed = (uint64_t)m->seed, .frame = strtoll(m->frame, NULL, 10) };
-    bool ok = levels_take(&levels, rgb, before, after, w, err) && cover_take(&cover, object, visible, err) &&
+    bool ok = levels_take(&levels, rgb, before, after, hand->black, w, err) && cover_take(&cover, object, visible, err) &&
               (hand->sharpening <= 0 || sharpen(&levels, rgb, &cover, hand->sharpening, w, err)) &&
               (!hand->has_grain || grain_add(&levels, &cover, &hand->drawn, key, w, m->width_px, err)) &&
               (!hand->compression.found || compress(&levels, rgb, &hand->compression, w, err));

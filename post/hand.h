@@ -6,6 +6,7 @@
 #include "lib/error.h"
 #include "lib/image.h"
 #include "lib/manifest.h"
+#include "post/blacks.h"
 #include "post/compression.h"
 #include "post/edge.h"
 #include "post/grain.h"
@@ -24,11 +25,13 @@ struct hand {
     struct grain grain, drawn;      /* as the photograph has it; and before its file pressed it */
     double fall_off;                /* 0: none */
     double knee;                    /* 1: none */
+    double black;                   /* level that comes out as 0; 0: none */
     struct compression compression; /* not found: none */
     /* what it was measured from, where it was */
     struct edges edges, layer_edges;
     struct vignette vignette;
     struct highlights highlights;
+    struct blacks blacks;
 };
 
 /* In:  rgb (U8, 3 channels), of the manifest's size; path, the photograph's; object (F32 RGBA), as rendered

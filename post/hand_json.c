@@ -93,6 +93,13 @@ static json_t *highlights(const struct hand *h, const struct manifest *m)
     return o;
 }
 
+static json_t *blacks(const struct hand *h, const struct manifest *m)
+{
+    json_t *o = json_pack("{s:s, s:o}", "source", source(m->blacks_auto, h->black > 0), "level", number(h->black));
+    if (m->blacks_auto) json_object_set_new(o, "level_rgb", numbers(h->blacks.channel, 3));
+    return o;
+}
+
 static json_t *compression(const struct hand *h)
 {
     const struct compression *c = &h->compression;
@@ -111,8 +118,8 @@ static json_t *compression(const struct hand *h)
 
 bool hand_write(const char *path, const struct hand *h, const struct manifest *m, struct error *err)
 {
-    json_t *json = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "softness", softness(h, m), "sharpening", sharpening(h, m), "grain", grain(h, m),
-                             "vignetting", vignetting(h, m), "highlights", highlights(h, m), "compression", compression(h));
+    json_t *json = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "softness", softness(h, m), "sharpening", sharpening(h, m), "grain", grain(h, m),
+                             "vignetting", vignetting(h, m), "highlights", highlights(h, m), "blacks", blacks(h, m), "compression", compression(h));
     char *text = json ? json_dumps(json, JSON_INDENT(1) | JSON_REAL_PRECISION(9)) : NULL;
     bool ok = text ? file_write(path, text, strlen(text), err) : error_set(err, ERR_MEMORY, "no memory for %s", path);
     free(text);

@@ -3,6 +3,7 @@ noinst_LIBRARIES += post/libpost.a
 post_libpost_a_CPPFLAGS = $(AM_CPPFLAGS) $(OPENCV_CFLAGS) $(JANSSON_CFLAGS) $(JPEG_CFLAGS)
 post_libpost_a_SOURCES = \
   %D%/before.c %D%/before.h \
+  %D%/blacks.c %D%/blacks.h \
   %D%/compression.c %D%/compression.h \
   %D%/defocus.c %D%/defocus.h \
   %D%/depth.c %D%/depth.h \

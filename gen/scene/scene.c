@@ -73,6 +73,7 @@ static void read_lens_effects(const struct reading *r, const struct yaml_node *l
     scene->grain_auto = read_trait(&scene->grain, yaml_get(lens, "grain"));
     scene->vignetting_auto = read_trait(&scene->vignetting, yaml_get(lens, "vignetting"));
     scene->highlights_auto = read_trait(&scene->highlights, yaml_get(lens, "highlights"));
+    scene->blacks_auto = read_trait(&scene->blacks, yaml_get(lens, "blacks"));
     scene->compression_auto = !strcmp(yaml_get(lens, "compression")->text, "auto");
     if (focus) scene->focus_m = schema_number(focus);
     scene->has_mist = weather != NULL;

@@ -218,8 +218,8 @@ struct scene {
     bool has_mist;
     double visibility_m, haze[3]; /* haze: linear values of the photograph */
     double exposure_s;         /* the shutter is open so long; 0: nothing blurs by moving */
-    double defocus_px, focus_m, softness_px, sharpening, grain, vignetting, highlights; /* as in lib/manifest.h */
-    bool softness_auto, sharpening_auto, grain_auto, vignetting_auto, highlights_auto, compression_auto;
+    double defocus_px, focus_m, softness_px, sharpening, grain, vignetting, highlights, blacks; /* as in lib/manifest.h */
+    bool softness_auto, sharpening_auto, grain_auto, vignetting_auto, highlights_auto, blacks_auto, compression_auto;
 
     enum quality quality;
     int seed;

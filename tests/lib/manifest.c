@@ -52,7 +52,7 @@ static struct manifest whole_manifest(void)
         .grain_auto = true,
         .compression_auto = true,
         .vignetting = 0.3,
-        .highlights = 0.6,
+        .highlights = 0.6, .blacks = 21.5, .blacks_auto = true,
         .seed = 11,
         .entities = entities,
         .entity_count = 2,
@@ -93,7 +93,7 @@ static bool same(const struct manifest *a, const struct manifest *b)
            a->defocus_px == b->defocus_px && a->focus_m == b->focus_m && a->softness_px == b->softness_px &&
            a->softness_auto == b->softness_auto && a->sharpening_auto == b->sharpening_auto && a->sharpening == b->sharpening && a->grain_auto == b->grain_auto && a->grain == b->grain &&
            a->vignetting_auto == b->vignetting_auto && a->vignetting == b->vignetting && a->highlights_auto == b->highlights_auto &&
-           a->highlights == b->highlights && a->compression_auto == b->compression_auto && a->seed == b->seed;
+           a->highlights == b->highlights && a->blacks_auto == b->blacks_auto && a->blacks == b->blacks && a->compression_auto == b->compression_auto && a->seed == b->seed;
 }
 
 static void comes_back(struct manifest manifest, const char *what)

@@ -99,6 +99,11 @@ tests_post_grain_test_SOURCES = %D%/grain.c %D%/taken.h tests/tap.h
 nodist_EXTRA_tests_post_grain_test_SOURCES = dummy.cxx
 tests_post_grain_test_LDADD = $(POST_LIBS)
 
+check_PROGRAMS += tests/post/blacks.test
+tests_post_blacks_test_SOURCES = %D%/blacks.c %D%/taken.h tests/tap.h
+nodist_EXTRA_tests_post_blacks_test_SOURCES = dummy.cxx
+tests_post_blacks_test_LDADD = $(POST_LIBS)
+
 check_PROGRAMS += tests/post/highlights.test
 tests_post_highlights_test_SOURCES = %D%/highlights.c %D%/taken.h tests/tap.h
 nodist_EXTRA_tests_post_highlights_test_SOURCES = dummy.cxx
