@@ -10,7 +10,7 @@ check "a street is photographed, enriched and compared with its truth" is $statu
 
 # figure METHOD COLUMN, as comparison_print writes them.
 figure() { awk -v method="$1" -v column="$2" '$3 == method { print $column }' ground/fixed-noon/figures-known; }
-psnr=5 ssim=6 shade=8 color=11 mask=12 amodal=13 depth=14 box=16 amodal_box=17 share=18 semantic=19 position=20 turn=21 size=22 corner=23
+psnr=5 ssim=6 shade=8 color=11 mask=12 amodal=13 depth=14 box=16 amodal_box=17 share=18 semantic=19 position=20 turn=21 size=22 corner=23 edge_width=25
 # within FIGURE LEAST MOST
 within() { awk -v f="$1" -v least="$2" -v most="$3" 'BEGIN { exit !(f != "" && f >= least && f <= most) }'; }
 # labelled BEHAVIOUR COLUMN LEAST MOST
@@ -34,9 +34,10 @@ labelled "corners of 3D boxes in the picture, px" $corner 0 0.01
 for method in layers ratio threshold alpha; do
     echo "# $method: PSNR $(figure $method $psnr) dB, SSIM $(figure $method $ssim), shade $(figure $method $shade), colour $(figure $method $color)"
 done
-labelled "layers: PSNR, dB" $psnr 25 99
+labelled "layers: PSNR, dB" $psnr 29 99
 labelled "layers: what is left of the light, mean distance" $shade 0 0.045
-labelled "layers: colours of entities, CIE 1976 distance" $color 0 2.5
+labelled "layers: colours of entities, CIE 1976 distance" $color 0 2.7
+labelled "layers: edges are as wide as the truth's" $edge_width 0.85 1.15
 for method in ratio threshold alpha; do
     check "layers come nearer than $method" within "$(figure layers $psnr)" "$(figure $method $psnr)" 99
 done
