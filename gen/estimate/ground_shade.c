@@ -34,7 +34,7 @@
 #define SUN_BESIDE_MIN 0.35
 #define SUN_ROUND_MIN 0.25
 #define COARSEST_M 1.0
-enum { PIECE_MIN = 24, BESIDE_PX = 8, BORDER_MIN = 12, REACH_PX = 3 };
+enum { PIECE_MIN = 24, BESIDE_PX = 8, BORDER_MIN = 12, REACH_PX = 3, RIM_PX = 4 };
 
 /* --- one colour --- */
 
@@ -225,6 +225,12 @@ static bool is_deep(const struct piece_search *s, int x, int y)
     return true;
 }
 
+/* So near to the picture's edge that ground_view.h, which looks at slopes, has no ground. */
+static bool is_rim(const struct piece_search *s, int x, int y)
+{
+    return is_outside(s, x - RIM_PX, y - RIM_PX) || is_outside(s, x + RIM_PX, y + RIM_PX);
+}
+
 /* Shade, and what is round it. */
 static void mark(struct ground_shade *g, const struct piece_search *s)
 {
@@ -236,8 +242,11 @@ static void mark(struct ground_shade *g, const struct piece_search *s)
                     if (!is_outside(s, u, v) && g->where[v * s->width + u] == GROUND_LIT) g->where[v * s->width + u] = GROUND_AT_EDGE;
             if (is_deep(s, x, y)) g->where[y * s->width + x] = GROUND_IN_SHADE;
         }
-    for (int i = 0; i < s->width * s->height; i++)
-        if (isnan(s->sun[i]) && g->where[i] == GROUND_LIT) g->where[i] = GROUND_UNKNOWN;
+    for (int y = 0; y < s->height; y++)
+        for (int x = 0; x < s->width; x++) {
+            int i = y * s->width + x;
+            if ((isnan(s->sun[i]) || (isinf(s->sun[i]) && is_rim(s, x, y))) && g->where[i] == GROUND_LIT) g->where[i] = GROUND_UNKNOWN;
+        }
 }
 
 /* Returns how many pixels show the ground. */
@@ -323,9 +332,11 @@ void ground_shade_release(struct ground_shade *shade)
 
 bool ground_shade_sun(const struct ground_shade *g, double *sun, struct vec2 q_px, const double linear[3])
 {
+    *sun = 1;
+    if (!g->found) return true;
     int x = (int)q_px.x / g->reduction, y = (int)q_px.y / g->reduction;
-    enum ground_light where = GROUND_LIT;
-    if (g->found && x < g->width_px && y < g->height_px) where = (enum ground_light)g->where[y * g->width_px + x];
+    /* What is left over beside the last working pixel is rim, too. */
+    enum ground_light where = x < g->width_px && y < g->height_px ? (enum ground_light)g->where[y * g->width_px + x] : GROUND_UNKNOWN;
     *sun = where == GROUND_LIT;
     if (where != GROUND_AT_EDGE) return where != GROUND_UNKNOWN;
     float ln[3];

@@ -27,7 +27,7 @@ struct sun_share_input {
 };
 
 /* Ground that something hides is as what it is beside, as is what is neither of the ground's surfaces: markings, drain
- * covers, cars. So is a little of what is out of the picture; farther out it is lit.
+ * covers, cars. Beyond the picture shade fades: far out the ground is lit.
  * Out: *share, initialized here; free with sun_share_release
  * Err: ERR_MEMORY */
 bool sun_share_create(struct sun_share *share, const struct sun_share_input *in, struct error *err);

@@ -41,13 +41,13 @@ struct count { int right, all; };
 static double part(struct count c) { return (double)c.right / fmax(1, c.all); }
 static void add(struct count *c, bool right) { c->right += right, c->all++; }
 
-/* The map over all of the street but its rim. In: unhidden or NULL */
+/* The map over the street, to 1.5 m beyond the picture in the east. In: unhidden or NULL */
 static bool map_of(struct sun_share *share, struct ground_shade *shade, struct scene *scene, const struct image *image,
                    const struct image *unhidden, const struct light *light)
 {
     struct error err = ERROR_NONE;
     struct stage stage = stage_of(scene);
-    struct vec3 corner[] = { { -10, 10, 0 }, { 13, 10, 0 }, { 13, 30, 0 }, { -10, 30, 0 } };
+    struct vec3 corner[] = { { -10, 10, 0 }, { 16.5, 10, 0 }, { 16.5, 30, 0 }, { -10, 30, 0 } };
     struct receiver receiver = { .corner_m = corner, .corners = 4 };
     struct seen seen = { .picture = image, .camera = &lens, .world_from_camera = above(), .k = { 2, 3, 4 }, .unhidden = unhidden };
     seen_init(&seen);
@@ -68,7 +68,7 @@ static void test_street(void)
     struct light light;
     struct ground_shade shade;
     struct sun_share share, again;
-    struct count lit = { 0 }, dark = { 0 }, tar = { 0 }, paint = { 0 }, hidden = { 0 }, line = { 0 };
+    struct count lit = { 0 }, dark = { 0 }, tar = { 0 }, paint = { 0 }, hidden = { 0 }, line = { 0 }, beyond = { 0 };
     make_image(&image, &m);
     if (!light_of(&light, &scene, m.ratio) || !map_of(&share, &shade, &scene, &image, NULL, &light)) return;
     double truth = 0;
@@ -91,6 +91,9 @@ static void test_street(void)
     OK(tar.all > 300 && part(tar) > 0.99, "tar in the sun is no shade: %.4f of %d", part(tar), tar.all);
     OK(paint.all > 40 && part(paint) > 0.9, "white paint in the shade is shaded: %.4f of %d", part(paint), paint.all);
     OK(line.all > 40 && part(line) > 0.9, "a yellow line in the shade, too: %.4f of %d", part(line), line.all);
+    for (double y = 12; y < 28; y += 0.1)
+        for (double x = 14.8; x < 15.5; x += 0.1) add(&beyond, sun_share_at(&share, (struct vec2){ x, y }) < 0.6);
+    OK(part(beyond) > 0.98, "shade goes on at the picture's edge, and fades beyond: %.4f", part(beyond));
     NEAR(sun_share_at(&share, (struct vec2){ 50, 0 }), 1, 0, "far away the ground is lit");
 
     /* Two signs before the ground, one before its shade. */
