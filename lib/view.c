@@ -120,7 +120,9 @@ static bool cover_lens(struct view *view, const struct camera *camera, struct re
             low = (struct vec2){ fmin(low.x, p.x), fmin(low.y, p.y) };
             high = (struct vec2){ fmax(high.x, p.x), fmax(high.y, p.y) };
         }
-    double focal_px = fineness * FINER / least;
+    /* As fine as the photograph it must be; finer, as far as there is room. */
+    double room_px = (SIDE_MAX_PX - 2 * MARGIN_PX - 1) / fmax(high.x - low.x, high.y - low.y);
+    double focal_px = fmax(FINER / least, fmin(fineness * FINER / least, room_px));
     double width = ceil((high.x - low.x) * focal_px) + 2 * MARGIN_PX;
     double height = ceil((high.y - low.y) * focal_px) + 2 * MARGIN_PX;
     if (!(width <= SIDE_MAX_PX && height <= SIDE_MAX_PX))

@@ -20,7 +20,8 @@ struct view {
 };
 
 /* The view that covers `window_px` of the photograph.
- * In:  fineness: of a lens's view, its pixels across a photograph's where the photograph is finest; 1 or more
+ * In:  fineness: of a lens's view, its pixels across a photograph's where the photograph is finest; 1 or more. Where so
+ *      large a view is not possible it is less fine, down to 1
  * Err: ERR_INPUT when the window spans more than 150 deg, or the lens is not invertible in it */
 bool view_cover(struct view *view, const struct camera *camera, struct rect window_px, double fineness, struct error *err);
 

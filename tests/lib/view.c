@@ -95,6 +95,11 @@ int main(void)
        "a whole fisheye picture is refused");
     OK(strstr(err.text, "x 0 to 640, y 0 to 480, spans") && strstr(err.text, "150 deg"), "with the window and the limit: %s",
        err.text);
+    const struct camera large = { CAMERA_SIMPLE_RADIAL, 20000, 15000, { 15000, 10000, 7500, -0.05 } };
+    const struct rect all = { 0, 0, 20000, 15000 };
+    struct view own, finer;
+    OK(view_cover(&own, &large, all, 1, &err) && view_cover(&finer, &large, all, 2, &err), "a large photograph's view can be wanted finer");
+    OK(own.width_px < 30000 && finer.width_px > 32700 && finer.width_px <= 32767, "and is so as far as there is room: %d, %d", own.width_px, finer.width_px);
     struct camera folded = { CAMERA_SIMPLE_RADIAL, 640, 480, { 400, 300.25, 251.5, -0.35 } };
     err = ERROR_NONE;
     OK(!view_cover(&untouched, &folded, whole, 1, &err) && err.code == ERR_INPUT && untouched.width_px == -7,
