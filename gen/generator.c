@@ -190,7 +190,7 @@ const char *generator_warning(const struct generator *g, size_t i)
     return g->stage->warnings[i];
 }
 
-/* Of level ground in the open. */
+/* Of level ground in the sun. */
 static void ground_radiance(double rgb[3], const struct generator *g)
 {
     for (int c = 0; c < 3; c++) rgb[c] = g->scene->ground_albedo[c] * g->light.irradiance[c];

@@ -23,7 +23,7 @@ struct light_estimate {
     enum shade_from from;      /* what told */
     double certainty;          /* of clear or not, 0.5 to 1 */
     struct shade shade;        /* places 0 where no shadow was found */
-    double sky_share[3], sky_share_sigma[3]; /* clear: of the light on level ground in the open, the sky's */
+    double sky_share[3], sky_share_sigma[3]; /* clear: of the light on level ground in the sun, what is not the sun's own */
     double turbidity;          /* clear: whose sky is to the sun as was found */
     double beyond;             /* the share beyond that of any clear sky at this height of the sun: above 0 too much sky, below too little */
     bool mesh;                 /* casts shadows, so that the sun can be checked by them */
