@@ -1,7 +1,5 @@
 #include "post/blacks.h"
 
-#include "lib/rect.h"
-
 #include <stdlib.h>
 
 #define MIDDLE 128.0        /* from here on light is as it is: exposures are fitted to what is about as bright */
@@ -10,21 +8,14 @@
 #define TOLD_MIN 4.0
 #define TOLD_MAX 48.0
 
-/* Rows from the first to the last that show anything: a picture may have black bars. Columns likewise. */
-static struct rect without_bars(const struct image *rgb)
+static bool is_black(const uint8_t *px) { return px[0] <= BESIDE && px[1] <= BESIDE && px[2] <= BESIDE; }
+
+/* The part of a row between the first and the last pixel that show anything: a picture may have black bars, and a
+ * fisheye's is a circle in black. */
+static void without_surround(int *from, int *to, const struct image *rgb, int y)
 {
-    struct rect r = { rgb->width_px, rgb->height_px, 0, 0 };
-    for (int y = 0; y < rgb->height_px; y++) {
-        const uint8_t *px = image_u8(rgb, 0, y);
-        for (int x = 0; x < rgb->width_px; x++, px += 3) {
-            if (px[0] <= BESIDE && px[1] <= BESIDE && px[2] <= BESIDE) continue;
-            if (x < r.x0) r.x0 = x;
-            if (x >= r.x1) r.x1 = x + 1;
-            if (y < r.y0) r.y0 = y;
-            r.y1 = y + 1;
-        }
-    }
-    return r;
+    for (*from = 0; *from < rgb->width_px && is_black(image_u8(rgb, *from, y)); ++*from) continue;
+    for (*to = rgb->width_px; *to > *from && is_black(image_u8(rgb, *to - 1, y)); --*to) continue;
 }
 
 static int ascending(const void *a, const void *b)
@@ -36,13 +27,15 @@ static int ascending(const void *a, const void *b)
 void blacks_measure(struct blacks *blacks, const struct image *rgb)
 {
     size_t count[3][BESIDE + 1] = { { 0 } }, n = 0;
-    struct rect r = without_bars(rgb);
-    for (int y = r.y0; y < r.y1; y++)
-        for (int x = r.x0; x < r.x1; x++, n++)
+    for (int y = 0, from, to; y < rgb->height_px; y++) {
+        without_surround(&from, &to, rgb, y);
+        n += (size_t)(to - from);
+        for (int x = from; x < to; x++)
             for (int c = 0; c < 3; c++) {
                 uint8_t level = image_u8(rgb, x, y)[c];
                 if (level <= BESIDE) count[c][level]++;
             }
+    }
     *blacks = (struct blacks){ 0 };
     double sorted[3];
     for (int c = 0; c < 3; c++) {

@@ -14,7 +14,7 @@ struct blacks {
 
 /* A picture whose values pile up at 0 has lost so many levels there as the levels just above could fill: at least
  * so many, for a place seldom has as many darker things as dark ones. Told where the median of the three channels is
- * 4 to 48: fewer may be chance, more is what was painted in (a clock). Black bars round the picture are left out.
+ * 4 to 48: fewer may be chance, more is what was painted in (a clock). What is black round the picture is left out: bars, a fisheye's corners.
  * In:  rgb (U8, 3 channels) */
 void blacks_measure(struct blacks *blacks, const struct image *rgb);
 

@@ -38,6 +38,14 @@ int main(void)
     for (int i = 0; i < 3 * W * 30; i++) ((uint8_t *)rgb.data)[i] = 0;
     blacks_measure(&b, &rgb);
     OK(b.level == 0 && b.channel[1] < 4, "and so is one with a black bar above");
+    struct image fisheye = photograph(0, 3);
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++)
+            if (hypot(x - W / 2, y - H / 2) > H / 2 + 24)
+                for (int c = 0; c < 3; c++) image_u8(&fisheye, x, y)[c] = 0;
+    blacks_measure(&b, &fisheye);
+    OK(b.level == 0 && b.channel[1] < 4, "or a fisheye's circle (%.1f)", b.channel[1]);
+    image_release(&fisheye);
     for (int y = 100; y < 200; y++)
         for (int i = 300; i < 900; i++) ((uint8_t *)rgb.data)[3 * W * y + i] = 0;
     blacks_measure(&b, &rgb);
