@@ -13,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define ROOM 1.2
 #define BODY_M 1.0 /* height over the ground at which entities look round */
@@ -44,8 +45,10 @@ static struct seen seen_of(const struct frame *f, const struct image *unhidden)
     return seen;
 }
 
+#define SUN_SHARE_FILE "sun-share.png"
+
 /* Out: path (SURROUNDINGS_PATH_SIZE) relative to the output folder */
-static bool write(char *path, const struct frame *f, const char *name, const struct image *image, struct error *err)
+static bool write_image(char *path, const struct frame *f, const char *name, const struct image *image, struct error *err)
 {
     snprintf(path, SURROUNDINGS_PATH_SIZE, "frames/%s/%s", f->name, name);
     char *file = string_format("%s/%s", f->folder, name);
@@ -57,6 +60,10 @@ static bool write(char *path, const struct frame *f, const char *name, const str
 /* What of the sun reaches the ground where entities and their shadows are: on a plane the photograph tells. */
 static bool write_sun_share(struct pass_surroundings *out, struct frame *f, const struct seen *seen, struct error *err)
 {
+    char *earlier = string_format("%s/" SUN_SHARE_FILE, f->folder);
+    if (!earlier) return error_set(err, ERR_MEMORY, "no memory for a path");
+    unlink(earlier);
+    free(earlier);
     if (f->scene->shade == SHADE_NONE || f->stage->mesh || !f->photograph[0] || !f->context->light->has_sun) return true;
     struct ground_shade shade = { 0 };
     struct receiver *receivers = calloc(f->moment.n + 1, sizeof *receivers); /* borrowed */
@@ -69,7 +76,7 @@ static bool write_sun_share(struct pass_surroundings *out, struct frame *f, cons
     f->shaded = shade.share;
     ground_shade_release(&shade);
     free(receivers);
-    return ok && (!out->sun_share.map.data || write(out->sun_share_map, f, "sun-share.png", &out->sun_share.map, err));
+    return ok && (!out->sun_share.map.data || write_image(out->sun_share_map, f, SUN_SHARE_FILE, &out->sun_share.map, err));
 }
 
 static bool write_ground(struct pass_surroundings *out, double color_gain[3], const struct frame *f, const struct seen *seen,
@@ -89,8 +96,8 @@ static bool write_ground(struct pass_surroundings *out, double color_gain[3], co
     bool ok = orthophoto_create(&ground, &in, err);
     free(entities);
     if (!ok) return false;
-    ok = write(out->orthophoto, f, "orthophoto.png", &ground.mirrored, err) &&
-         write(out->orthophoto_coarse, f, "orthophoto-coarse.png", &ground.bouncing, err);
+    ok = write_image(out->orthophoto, f, "orthophoto.png", &ground.mirrored, err) &&
+         write_image(out->orthophoto_coarse, f, "orthophoto-coarse.png", &ground.bouncing, err);
     out->low_m = ground.low_m;
     out->high_m = ground.high_m;
     memcpy(out->ground_albedo, ground.elsewhere, sizeof out->ground_albedo);
@@ -126,8 +133,8 @@ static bool write_sky(struct pass_surroundings *out, const double color_gain[3],
     };
     struct panorama panorama;
     if (!panorama_create(&panorama, &in, err)) return false;
-    bool ok = write(out->sky_map, f, "sky.exr", &panorama.lighting, err) &&
-              write(out->mirrored_sky_map, f, "panorama.exr", &panorama.mirrored, err);
+    bool ok = write_image(out->sky_map, f, "sky.exr", &panorama.lighting, err) &&
+              write_image(out->mirrored_sky_map, f, "panorama.exr", &panorama.mirrored, err);
     out->seen_from_m = from;
     out->circle_m = vec3(eye.x, eye.y, ground);
     if (panorama.radius_m > 0) out->circle_radius_m = circle_radius(f, panorama.radius_m);
@@ -147,7 +154,7 @@ static bool write_standing(struct pass_surroundings *out, const struct frame *f,
         if (!s->thing.count) continue;
         out->standing_count++;
         snprintf(name, sizeof name, "standing-%zu.exr", i);
-        if (!write(s->radiance, f, name, &s->thing.radiance, err)) return false;
+        if (!write_image(s->radiance, f, name, &s->thing.radiance, err)) return false;
     }
     return true;
 }

@@ -200,8 +200,16 @@ static void ground_radiance(double rgb[3], const struct generator *g)
 static char *north_text(const struct scene *s)
 {
     if (!(s->north_shadow_m > 0)) return string_format("%s", "");
-    return string_format("north: north_deg %.1f, by a shadow of %.2f m: what casts it is %.2f m high\n", fmod(s->north_rad * DEG + 720, 360),
+    return string_format("north: north_deg %.1f, by a shadow of %.2f m: what casts it is %.2f m high (or else height or tilt of the camera are off)\n", fmod(s->north_rad * DEG + 720, 360),
                          s->north_shadow_m, s->north_height_m);
+}
+
+/* What was found is told all the same, to compare. */
+static char *given_text(const struct generator *g)
+{
+    const double *k = g->scene->exposure;
+    if (!g->estimated || !g->scene->exposure_given) return string_format("%s", "");
+    return string_format("light: exposure R %.3f G %.3f B %.3f is given, and taken\n", k[0], k[1], k[2]);
 }
 
 char *generator_light_text(const struct generator *g)
@@ -209,9 +217,10 @@ char *generator_light_text(const struct generator *g)
     double radiance[3];
     ground_radiance(radiance, g);
     char *north = north_text(g->scene), *light = g->estimated ? light_estimate_text(&g->estimate, radiance) : string_format("%s", "");
-    char *text = north && light ? string_format("%s%s", north, light) : NULL;
+    char *given = given_text(g), *text = north && light && given ? string_format("%s%s%s", north, light, given) : NULL;
     free(north);
     free(light);
+    free(given);
     return text;
 }
 
