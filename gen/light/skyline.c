@@ -53,6 +53,16 @@ static void put_sides(struct light *light, const struct scene_skyline *skyline, 
     }
 }
 
+/* How much of a side the sun reaches past what stands across, as far from the middle as the side itself: its shade is as
+ * high as it is, less what the sun comes down on the way. */
+static double sunlit_share(const struct light *light, const struct scene_skyline *skyline, double azimuth_rad)
+{
+    struct vec3 sun = light->sun_direction;
+    double own = tan(skyline_elevation(skyline, azimuth_rad)), across = tan(skyline_elevation(skyline, atan2(sun.x, sun.y)));
+    double down = 2 * sun.z / fmax(1e-9, hypot(sun.x, sun.y)), shade = across - down;
+    return !(shade > 0) ? 1 : own > shade ? 1 - shade / own : 0;
+}
+
 void skyline_raise(struct light *light, const struct scene_skyline *skyline, const double ground_albedo[3])
 {
     double side[SIDES][3] = { { 0 } };
@@ -62,9 +72,11 @@ void skyline_raise(struct light *light, const struct scene_skyline *skyline, con
         put_ground(light, ground_albedo);
         if (bounce == BOUNCES || !skyline->count) return;
         for (int i = 0; i < SIDES; i++) {
-            double turn = 2 * M_PI * i / SIDES;
-            light_irradiance(side[i], light, vec3(-cos(turn), -sin(turn), 0));
-            for (int c = 0; c < 3; c++) side[i][c] *= skyline->albedo[c];
+            double turn = 2 * M_PI * i / SIDES, sky[3], sunlit = light->has_sun ? sunlit_share(light, skyline, M_PI / 2 - turn) : 0;
+            struct vec3 facing = vec3(-cos(turn), -sin(turn), 0);
+            light_irradiance(side[i], light, facing);
+            light_sky_irradiance(sky, light, facing);
+            for (int c = 0; c < 3; c++) side[i][c] = skyline->albedo[c] * (sky[c] + sunlit * (side[i][c] - sky[c]));
         }
         put_sides(light, skyline, side);
     }

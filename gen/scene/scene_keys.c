@@ -225,7 +225,7 @@ static const struct schema_key keys[] = {
     { "lens.grain", TYPE_NUMBER | TYPE_CHOICE, .preset = "auto", LIMITS(0, 100), .choice = trait_name },
     { "lens.compression", TYPE_CHOICE, .preset = "auto", .choice = trait_name },
     { "lens.vignetting", TYPE_NUMBER | TYPE_CHOICE, .preset = "none", LIMITS(0, 0.95), .choice = trait_name },
-    { "lens.blacks", TYPE_NUMBER | TYPE_CHOICE, .preset = "auto", LIMITS(1, 100), .choice = trait_name },
+    { "lens.blacks", TYPE_NUMBER | TYPE_CHOICE, .preset = "none", LIMITS(1, 100), .choice = trait_name },
     { "lens.highlights", TYPE_NUMBER | TYPE_CHOICE, .preset = "none", LIMITS(0.01, 1), .choice = trait_name },
 
     { "transfer", TYPE_MAPPING, SECTION },

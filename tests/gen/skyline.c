@@ -89,6 +89,25 @@ static void check_sun(void)
     light_release(&light);
 }
 
+/* Between walls of 35 deg all round a sun of 3 deg reaches the top of the wall across: as high as it comes down on the way. */
+static void check_low_sun(void)
+{
+    struct error err = ERROR_NONE;
+    struct light light;
+    double point[1][2] = { { 0, rad(35) } }, north[3], upright[3], sky[3], lit = 2 * tan(rad(3)) / tan(rad(35));
+    struct scene scene = clear_scene(point, 1);
+    scene.sun_elevation_rad = rad(3);
+    if (!OK(light_create(&light, &scene, &err), "a narrow street in the evening")) return;
+    light_sky_radiance(north, &light, vec3(0, cos(0.2), sin(0.2)));
+    light_irradiance(upright, &light, vec3(0, -1, 0));
+    light_sky_irradiance(sky, &light, vec3(0, -1, 0));
+    for (int c = 0; c < 3; c++) {
+        double want = scene.skyline.albedo[c] * (sky[c] + lit * (upright[c] - sky[c]));
+        NEAR(north[c], want, 0.02 * want, "a house has the sun on its top alone, channel %d", c);
+    }
+    light_release(&light);
+}
+
 /* What of the light in the sun is not the sun's was measured on the ground: what stands around is part of it. */
 static void check_share(void)
 {
@@ -136,6 +155,7 @@ int main(void)
     check_uniform_sky(20, 0.25, 0.1);
     check_uniform_sky(50, 0.5, 0.3);
     check_sun();
+    check_low_sun();
     check_share();
     check_doubt();
     return tap_done();
