@@ -1,9 +1,12 @@
 #include "post/transfer.h"
 
+#include <math.h>
+
 enum { REACH_PX = 4, WHOLE = 250, NONE = 12 }; /* WHOLE, NONE: of 255 */
+#define LIMB 2.0f /* what is round turns away from the light at its edge, or to it: so many times less or more */
 
 /* What is seen behind the soft edge of something that hides it, of the light of a pixel that shows both: what is behind is
- * as beside it, what hides is no other than it is farther in. Where either is farther off, or nowhere, the pixel's own light.
+ * as beside it, what hides is about as it is farther in. Where either is farther off, or nowhere, the pixel's own light.
  * In/out: rgb  the pixel's light */
 static void behind(float rgb[3], const struct transfer_input *in, int x, int y, float seen)
 {
@@ -27,7 +30,7 @@ static void behind(float rgb[3], const struct transfer_input *in, int x, int y, 
     if (!(beside > 0) || !(within > 0)) return;
     for (int c = 0; c < 3; c++) {
         float hider = (rgb[c] - seen * sum[c] / beside) / (1 - seen);
-        hider = hider < low[c] ? low[c] : hider > high[c] ? high[c] : hider;
+        hider = fminf(fmaxf(hider, low[c] / LIMB), high[c] * LIMB);
         rgb[c] = (rgb[c] - (1 - seen) * hider) / seen;
     }
 }

@@ -29,6 +29,13 @@ static void at_a_soft_edge(void)
     NEAR(image_f32(&out, 4, 0)[0], 0.9, 1e-6, "beside it the entity is whole");
     image_release(&out);
 
+    /* A round post turns away from the light: its edge has 0.18. */
+    for (int c = 0; c < 3; c++) b[3 * 3 + c] = 0.18f * 0.6f + 0.2f * 0.4f;
+    if (!OK(transfer_layers(&out, &in, &err), "with something round that hides")) return;
+    NEAR(image_f32(&out, 3, 0)[0], 0.18 * 0.6 + 0.9 * 0.4, 1e-6, "an edge darker than the rest keeps its own light, too");
+    image_release(&out);
+    for (int c = 0; c < 3; c++) b[3 * 3 + c] = 0.3f * 0.6f + 0.2f * 0.4f;
+
     /* The same with a shadow of 0.3 on the ground under the entity. */
     float plane[WIDTH * 4], shadow[WIDTH * 4];
     for (int i = 0; i < WIDTH * 4; i++) {
