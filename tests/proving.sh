@@ -36,7 +36,7 @@ for method in layers ratio threshold alpha; do
 done
 labelled "layers: PSNR, dB" $psnr 29 99
 labelled "layers: what is left of the light, mean distance" $shade 0 0.045
-labelled "layers: colours of entities, CIE 1976 distance" $color 0 2.7
+labelled "layers: colours of entities, CIE 1976 distance" $color 0 2.5
 labelled "layers: edges are as wide as the truth's" $edge_width 0.85 1.15
 for method in ratio threshold alpha; do
     check "layers come nearer than $method" within "$(figure layers $psnr)" "$(figure $method $psnr)" 99
