@@ -15,7 +15,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define ROOM 1.2
+#define ROOM 1.2   /* the circle is so many times as far from the camera as what is within it */
 #define BODY_M 1.0 /* height over the ground at which entities look round */
 
 /* Among the entities, by how much of each is seen: one that comes into the picture moves it little by little. */

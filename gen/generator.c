@@ -200,8 +200,8 @@ static void ground_radiance(double rgb[3], const struct generator *g)
 static char *north_text(const struct scene *s)
 {
     if (!(s->north_shadow_m > 0)) return string_format("%s", "");
-    return string_format("north: north_deg %.1f, by a shadow of %.2f m: what casts it is %.2f m high (or else height or tilt of the camera are off)\n", fmod(s->north_rad * DEG + 720, 360),
-                         s->north_shadow_m, s->north_height_m);
+    return string_format("north: north_deg %.1f, by a shadow of %.2f m: what casts it is %.2f m high (or else height or tilt of the "
+                         "camera are off)\n", fmod(s->north_rad * DEG + 720, 360), s->north_shadow_m, s->north_height_m);
 }
 
 /* What was found is told all the same, to compare. */

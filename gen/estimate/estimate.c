@@ -15,7 +15,6 @@
 #define PLACES_ENOUGH 12.0
 #define PLACES_PLENTY 30
 #define PLACES_OF_SURFACE 4
-#define SKY_SEEN 0.8
 #define SKY_SHARE_MAX 0.95
 #define SKY_SEEN_SIGMA 0.08
 #define EDGES_ENOUGH 300.0

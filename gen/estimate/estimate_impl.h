@@ -7,6 +7,9 @@
 #include "gen/estimate/lit_ground.h"
 #include "gen/estimate/tones.h"
 
+/* How much of the light that level ground has without the sun reaches it where something keeps the sun away, too. */
+#define SKY_SEEN 0.8
+
 /* What all photographs together say. */
 struct gathered {
     bool by_place;                /* a mesh casts shadows: sides and told are there */

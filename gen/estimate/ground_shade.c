@@ -19,7 +19,6 @@
 /* The photograph's shadows are the light's: as deep and as blue, give or take the sky that is hidden there, and the camera's curve. */
 #define DEPTH_OFF 0.7
 #define BLUE_OFF 0.5
-#define SKY_SEEN 0.8
 /* A share of the sun below is shade, above is light. */
 #define SHADE_MAX 0.3
 #define SUN_MIN 0.75
