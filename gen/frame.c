@@ -16,7 +16,7 @@
 static void frame_release(struct frame *f)
 {
     for (size_t i = 0; f->receivers && i < f->moment.n; i++) receiver_release(&f->receivers[i]);
-    for (size_t i = 0; f->occluders && i < f->scene->occluder_count; i++) free((void *)f->occluders[i].polygon_px);
+    for (size_t i = 0; i < f->occluder_count; i++) free((void *)f->occluders[i].polygon_px);
     surroundings_release(&f->around);
     free(f->receivers);
     free(f->occluders);
@@ -40,11 +40,14 @@ static bool place_occluders(struct frame *f, struct error *err)
     const struct scene *s = f->scene;
     for (size_t i = 0; i < s->occluder_count; i++) {
         const struct scene_occluder *o = &s->occluders[i];
+        if (!o->in_each_shot && &s->shots[o->shot] != f->shot) continue;
+        struct occluder *out = &f->occluders[f->occluder_count];
         struct vec2 *polygon = calloc(o->polygon_count, sizeof *polygon);
         if (!polygon) return error_set(err, ERR_MEMORY, "no memory for an occluder");
         for (size_t k = 0; k < o->polygon_count; k++) polygon[k] = frame_scaled_px(f, o->polygon_px[k]);
-        f->occluders[i] = (struct occluder){ .name = o->name, .polygon_px = polygon, .polygon_count = o->polygon_count };
-        if (!stage_ground_at(&f->occluders[i].foot_m, f->stage, f->shot, o->ground_px, err)) {
+        *out = (struct occluder){ .name = o->name, .polygon_px = polygon, .polygon_count = o->polygon_count };
+        f->occluder_count++;
+        if (!stage_ground_at(&out->foot_m, f->stage, f->shot, o->ground_px, err)) {
             stage_fail(s, o->source, err);
             return error_prefix(err, "occluder \"%s\": ", o->name);
         }
@@ -101,7 +104,7 @@ static struct trace_input trace_input(const struct frame *f)
     return (struct trace_input){
         .camera = f->camera, .world_from_camera = f->shot->world_from_camera,
         .entities = f->moment.entities, .entity_count = f->moment.n,
-        .occluders = f->occluders, .occluder_count = f->scene->occluder_count,
+        .occluders = f->occluders, .occluder_count = f->occluder_count,
         .ground = f->stage->mesh ? NULL : &f->scene->ground,
         .place = f->stage->mesh, .receivers = f->around.receivers, .receiver_count = f->around.n,
     };

@@ -18,7 +18,8 @@ struct frame {
     struct moment moment;
     struct receiver *receivers;     /* (moment.n) */
     struct surroundings around;     /* with a static mesh */
-    struct occluder *occluders;     /* (scene->occluder_count) polygons at the size of the result; owned */
+    struct occluder *occluders;     /* (occluder_count) this shot's, polygons at the size of the result; owned */
+    size_t occluder_count;
     struct frame_labels labels;
     bool *matters;                  /* (moment.n) seen, or shading what is seen */
     struct image motion;            /* empty: nothing blurs by moving */

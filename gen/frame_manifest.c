@@ -32,7 +32,7 @@ bool frame_write_manifest(const struct frame *f, const struct frame_result *resu
         .exposure_samples = (int)f->exposure.samples,
         .t1 = s->t1, .t2 = s->t2, .t3 = s->t3,
         .overwrite_below = s->overwrite == OVERWRITE_BELOW, .mask_dilated = s->mask == MASK_DILATED,
-        .has_shares = s->occluder_count > 0 || f->stage->mesh, .has_place = f->labels.place_depth.data != NULL,
+        .has_shares = f->occluder_count > 0 || f->stage->mesh, .has_place = f->labels.place_depth.data != NULL,
         .has_place_labels = f->labels.place_label.data != NULL, .palette = s->palette, .new_view = !f->photograph[0],
         .shaded = f->shaded, .has_mist = s->has_mist, .visibility_m = s->visibility_m, .haze = { s->haze[0], s->haze[1], s->haze[2] },
         .has_motion = f->motion.data != NULL, .defocus_px = s->defocus_px, .focus_m = s->focus_m,

@@ -114,7 +114,7 @@ static double circle_radius(const struct frame *f, double radius_m)
         struct vec3 p = f->moment.entities[i].world_from_entity.translation;
         if (f->matters[i]) radius_m = fmax(radius_m, ROOM * hypot(p.x - eye.x, p.y - eye.y));
     }
-    for (size_t i = 0; i < f->scene->occluder_count; i++)
+    for (size_t i = 0; i < f->occluder_count; i++)
         radius_m = fmax(radius_m, ROOM * hypot(f->occluders[i].foot_m.x - eye.x, f->occluders[i].foot_m.y - eye.y));
     return radius_m;
 }
@@ -144,7 +144,7 @@ static bool write_sky(struct pass_surroundings *out, const double color_gain[3],
 
 static bool write_standing(struct pass_surroundings *out, const struct frame *f, const struct seen *seen, struct error *err)
 {
-    size_t occluders = f->scene->occluder_count;
+    size_t occluders = f->occluder_count;
     out->standing = calloc(occluders + 1, sizeof *out->standing);
     if (!out->standing) return error_set(err, ERR_MEMORY, "no memory for a frame");
     for (size_t i = 0; i < occluders; i++) {
@@ -172,7 +172,7 @@ bool frame_write_surroundings(struct pass_surroundings *surroundings, struct fra
     struct pass_surroundings out = { .sky_map = "" };
     double color_gain[3] = { 0, 0, 0 };
     struct image unhidden = { 0 };
-    size_t n = f->scene->occluder_count;
+    size_t n = f->occluder_count;
     if (!frame_read_picture(f, err) ||
         (n && !unhidden_create(&unhidden, f->occluders, n, f->picture.width_px, f->picture.height_px, err)))
         return false;

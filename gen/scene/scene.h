@@ -112,6 +112,8 @@ struct scene_occluder {
     struct vec2 *polygon_px;   /* (n) */
     size_t polygon_count;
     struct vec2 ground_px;     /* where it stands on the ground */
+    bool in_each_shot;         /* of one camera that stays where it is */
+    size_t shot;               /* else the one that it is drawn on */
     struct source source;
 };
 

@@ -186,12 +186,27 @@ static double polygon_area(const struct vec2 *p, size_t n)
     return fabs(twice) / 2;
 }
 
+/* The shot that an outline is drawn on. */
+static bool read_outlined_shot(const struct reading *r, struct scene_occluder *occluder, const struct yaml_node *node)
+{
+    const struct yaml_node *shot = yaml_get(node, "shot");
+    int index = 0;
+    occluder->in_each_shot = !shot;
+    if (!shot)
+        return r->scene->fixed_camera ||
+               FAIL(r, node, "occluder \"%s\": key \"shot\" is missing: an outline fits one shot of a flight", occluder->name);
+    yaml_integer(&index, shot);
+    occluder->shot = (size_t)index;
+    return occluder->shot < r->scene->shot_count ||
+           FAIL(r, shot, "occluder \"%s\": there is no shot %d: they run from 0 to %zu", occluder->name, index, r->scene->shot_count - 1);
+}
+
 static bool read_occluder(const struct reading *r, struct scene_occluder *occluder, const struct yaml_node *node)
 {
     const struct yaml_node *polygon = yaml_get(node, "polygon_px");
     double p[2];
     occluder->source = source_of(node);
-    if (!scene_copy_text(r, &occluder->name, yaml_get(node, "name"))) return false;
+    if (!scene_copy_text(r, &occluder->name, yaml_get(node, "name")) || !read_outlined_shot(r, occluder, node)) return false;
     occluder->polygon_px = calloc(polygon->count, sizeof *occluder->polygon_px);
     if (!occluder->polygon_px) return out_of_memory(r);
     occluder->polygon_count = polygon->count;
@@ -210,8 +225,6 @@ bool scene_read_occluders(const struct reading *r, const struct yaml_node *node)
 {
     struct scene *scene = r->scene;
     if (!node->count) return true;
-    if (!scene->fixed_camera)
-        return FAIL(r, node, "occluders: a polygon of one photograph does not fit the others: a flight's static mesh hides");
     scene->occluders = calloc(node->count, sizeof *scene->occluders);
     if (!scene->occluders) return out_of_memory(r);
     scene->occluder_count = node->count;

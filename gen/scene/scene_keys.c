@@ -207,6 +207,7 @@ static const struct schema_key keys[] = {
     { "occluders[].name", TYPE_TEXT, .presence = REQUIRED, .count_max = 120 },
     { "occluders[].polygon_px", TYPE_ROWS, "px", .presence = REQUIRED, .count_min = 3, .columns = 2 },
     { "occluders[].ground_px", TYPE_NUMBERS, "px", .presence = REQUIRED, COUNT(2) },
+    { "occluders[].shot", TYPE_INTEGER, .presence = OPTIONAL, LIMITS(0, FRAME_MAX) },
 
     { "traffic", TYPE_MAPPING, SECTION },
     MOVERS("traffic.vehicles", "8"),

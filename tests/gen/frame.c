@@ -94,6 +94,26 @@ static void test_occluder_over_mesh(void)
     free(head);
 }
 
+static void test_outline_of_one_shot(void)
+{
+    char *head = string_format("cameras: {drone: {model: PINHOLE, size_px: [64, 48], params: [60, 60, 32, 24]}}\n"
+                               "shots:\n  - {photograph: %s/tests/input/street.png, camera: drone, " HIGH "}\n"
+                               "  - {photograph: %s/tests/input/street.png, camera: drone, " HIGH "}\n", top, top);
+    static const char rest[] = "static: {mesh: flat.ply}\nexposure: {value: 1}\n"
+                               "entities: [{name: e, model: box, at: {world_m: [0, 0]}, heading_deg: 0}]\n"
+                               "occluders: [{name: fence, polygon_px: [[20, 20], [44, 20], [44, 40], [20, 40]], ground_px: [32, 30], shot: %d}]";
+    for (int shot = 0; shot < 2; shot++) {
+        char text[400];
+        snprintf(text, sizeof text, rest, shot);
+        if (!OK(makes(head, text), "shot 0 of a flight, with an outline of shot %d", shot)) continue;
+        json_t *entity = labels();
+        size_t hiders = json_array_size(json_object_get(entity, "hidden_by"));
+        OK(hiders == (shot ? 0 : 1), shot ? "an outline of another shot hides nothing" : "its own outline hides what is behind it");
+        json_decref(entity);
+    }
+    free(head);
+}
+
 static void test_shade_that_moves(void)
 {
     char *head = fixed(", rate_hz: 1"), *path = of_frame("motion.exr");
@@ -259,6 +279,7 @@ int main(void)
     snprintf(text, sizeof text, mesh, -6, 6, 6, -6);
     put("slope.ply", text);
     test_occluder_over_mesh();
+    test_outline_of_one_shot();
     test_shade_that_moves();
     test_end_of_path();
     test_exposure_without_roads();
