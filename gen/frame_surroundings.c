@@ -4,9 +4,11 @@
 #include "gen/estimate/sun_share.h"
 #include "gen/light/orthophoto.h"
 #include "gen/light/panorama.h"
+#include "gen/light/relief.h"
 #include "gen/light/seen.h"
 #include "gen/light/standing.h"
 #include "gen/light/unhidden.h"
+#include "gen/render/place_sdl.h"
 #include "lib/file.h"
 
 #include <math.h>
@@ -142,6 +144,21 @@ static bool write_sky(struct pass_surroundings *out, const double color_gain[3],
     return ok;
 }
 
+/* Over a place, what the mirrored map shows stands where it stands. */
+static bool write_relief(struct pass_surroundings *out, const struct frame *f, struct error *err)
+{
+    if (!f->stage->mesh || !out->mirrored_sky_map[0]) return true;
+    struct relief_input in = { .place = f->stage->mesh, .from_m = out->seen_from_m, .low_m = out->low_m, .high_m = out->high_m };
+    struct relief relief;
+    if (!relief_create(&relief, &in, err)) return false;
+    snprintf(out->relief_include, SURROUNDINGS_PATH_SIZE, "frames/%s/relief.inc", f->name);
+    char *path = string_format("%s/relief.inc", f->folder);
+    bool ok = (path || error_set(err, ERR_MEMORY, "no memory for a path")) && relief_include_write(path, &relief, err);
+    relief_release(&relief);
+    free(path);
+    return ok;
+}
+
 static bool write_standing(struct pass_surroundings *out, const struct frame *f, const struct seen *seen, struct error *err)
 {
     size_t occluders = f->occluder_count;
@@ -178,7 +195,7 @@ bool frame_write_surroundings(struct pass_surroundings *surroundings, struct fra
         return false;
     struct seen seen = seen_of(f, n ? &unhidden : NULL);
     bool ok = write_sun_share(&out, f, &seen, err) && write_ground(&out, color_gain, f, &seen, err) && write_sky(&out, color_gain, f, &seen, err) &&
-              write_standing(&out, f, &seen, err);
+              write_relief(&out, f, err) &&              write_standing(&out, f, &seen, err);
     image_release(&unhidden);
     if (ok) *surroundings = out;
     else frame_release_surroundings(&out);

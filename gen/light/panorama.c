@@ -1,6 +1,7 @@
 #include "gen/light/panorama.h"
 
 #include "gen/light/push_pull.h"
+#include "gen/light/relief.h"
 #include "gen/light/sky_image.h"
 
 #include <math.h>
@@ -154,8 +155,19 @@ static bool of_place(struct sight *sight, const struct panorama_input *in, struc
     if (!seen_project(in->seen, &q, p) || seen_hidden(in->seen, q)) return true;
     struct vec3 to_eye = vec3_sub(eye, p);
     double range = vec3_norm(to_eye);
-    if (!static_mesh_blocks(in->place, p, vec3_scale(to_eye, 1 / range), OFF_PLACE_M, range)) mix_picture(sight, in->seen, q, NULL, NULL, false);
+    double z = pose_apply(in->seen->camera_from_world, p).z;
+    if (!seen_beside_nearer(in->seen, in->place_depth, q, z) &&
+        !static_mesh_blocks(in->place, p, vec3_scale(to_eye, 1 / range), OFF_PLACE_M, range))
+        mix_picture(sight, in->seen, q, NULL, NULL, false);
     return true;
+}
+
+/* The light's own ground. */
+static bool below(struct sight *sight, const struct panorama_input *in)
+{
+    const float *ground = image_f32(&in->light->sky, 0, in->light->sky.height_px - 1);
+    for (int c = 0; c < 3; c++) sight->rgb[c] = (double)ground[c];
+    return false;
 }
 
 /* Returns whether it is other than the light's sky. */
@@ -165,6 +177,7 @@ static bool look(struct sight *sight, const struct panorama_input *in, const str
     double aside, z, gain[3], sky[3];
     sight->known = 1;
     if (in->place && of_place(sight, in, d)) return true;
+    if (d.z < 0) return below(sight, in);
     sky_between(sky, &in->light->open_sky, d);
     sky_between(sight->rgb, &in->light->sky, d);
     bool closed = in->told && sight->rgb[1] != sky[1];
@@ -207,10 +220,17 @@ static void paint_pixel(float rgbw[4], struct sight *sight, const struct image *
         }
 }
 
+/* From above: to the horizon; of a place, as far as its relief. */
+static int painted_rows(const struct panorama_input *in, const struct image *image)
+{
+    double lowest_rad = in->place ? RELIEF_LOWEST_RAD : 0;
+    return (int)ceil((0.5 + lowest_rad / M_PI) * image->height_px - 1e-9);
+}
+
 /* What something hides is as what is round it. */
 static bool paint(struct image *image, const struct panorama_input *in, const struct wall *wall, struct error *err)
 {
-    int width = image->width_px, height = image->height_px / 2;
+    int width = image->width_px, height = painted_rows(in, image);
     float (*rgbw)[4] = calloc((size_t)width * (size_t)height, sizeof *rgbw);
     if (!rgbw) return error_set(err, ERR_MEMORY, "no memory for what stands round the entities");
     for (int x = 0; x < width; x++) {
@@ -254,7 +274,7 @@ bool panorama_create(struct panorama *panorama, const struct panorama_input *in,
     }
     reduce(&out.lighting, &out.mirrored, sky);
     const float *ground = image_f32(sky, 0, sky->height_px - 1);
-    for (int y = out.mirrored.height_px / 2; y < out.mirrored.height_px; y++)
+    for (int y = painted_rows(in, &out.mirrored); y < out.mirrored.height_px; y++)
         for (int x = 0; x < out.mirrored.width_px; x++) memcpy(image_f32(&out.mirrored, x, y), ground, 3 * sizeof *ground);
     if (wall.there && !in->place) out.radius_m = wall.radius_m;
     *panorama = out;

@@ -16,7 +16,8 @@
 #include "lib/vec.h"
 
 struct panorama {
-    struct image mirrored;  /* F32, 3 channels: radiance, laid out as sky_image.h says; below the horizon the light's own */
+    struct image mirrored;  /* F32, 3 channels: radiance, laid out as sky_image.h says; below the horizon the light's own, of a
+                             * place that from RELIEF_LOWEST_RAD (relief.h) */
     struct image lighting;  /* the same at the size of the light's sky */
     double radius_m;        /* of the circle round the camera on which stands what the picture shows; 0: it is as far away as the sky */
 };

@@ -7,6 +7,8 @@
 #define EDGE_SHARE 0.02 /* of the picture's width */
 #define SATURATED 250
 #define PIXEL_OF_GROUND_M 0.5
+#define OUTLINE_M 0.15  /* how far off a reconstruction's outlines may be */
+#define NEARER 0.92     /* ground that is seen along it comes nearer by less within that reach */
 
 void seen_init(struct seen *seen)
 {
@@ -46,6 +48,19 @@ double seen_trust(const struct seen *seen, struct vec2 q)
 {
     double trust = seen_within(seen, q);
     return trust > 0 && seen_hidden(seen, q) ? 0 : trust;
+}
+
+bool seen_beside_nearer(const struct seen *seen, const struct image *place_depth, struct vec2 q, double z_m)
+{
+    enum { ROUND = 8 };
+    double reach = 2 + OUTLINE_M / (z_m * seen->pixel_rad);
+    for (int i = 0; i < 2 * ROUND; i++) {
+        double r = i < ROUND ? reach : reach / 2, turn = 2 * M_PI * i / ROUND;
+        double x = q.x + r * cos(turn), y = q.y + r * sin(turn);
+        if (!(x >= 0 && y >= 0 && x < place_depth->width_px && y < place_depth->height_px)) continue;
+        if ((double)*image_f32(place_depth, (int)x, (int)y) < NEARER * z_m) return true;
+    }
+    return false;
 }
 
 bool seen_radiance(const struct seen *seen, double rgb[3], struct vec2 q)

@@ -36,6 +36,10 @@ bool seen_hidden(const struct seen *seen, struct vec2 q_px);
 /* Both: 0 where something is hidden. */
 double seen_trust(const struct seen *seen, struct vec2 q_px);
 
+/* Does something of a place stand nearer beside a pixel position? By so much its outlines are off in a reconstruction, and what the
+ * picture shows there may be of either. In: place_depth F32, z in the picture, NaN where there is none; z_m of what is looked at */
+bool seen_beside_nearer(const struct seen *seen, const struct image *place_depth, struct vec2 q_px, double z_m);
+
 /* The radiance at a pixel position, between the middles of pixels linearly, through whatever air there is.
  * Returns true when the sensor may have been saturated: then there was this light, or more. */
 bool seen_radiance(const struct seen *seen, double rgb[3], struct vec2 q_px);

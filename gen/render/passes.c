@@ -49,9 +49,12 @@ static void write_light(struct sdl *sdl, const struct passes *p, bool object)
     }
     const struct pass_surroundings *around = object ? p->surroundings : NULL;
     sdl_declare_string(sdl, "Sky_Map", around && around->sky_map[0] ? around->sky_map : p->sky_map);
-    if (around && around->sky_map[0]) sdl_declare_string(sdl, "Mirrored_Sky_Map", around->mirrored_sky_map);
-    if (around && around->circle_radius_m > 0) {
+    if (around && around->sky_map[0]) {
+        sdl_declare_string(sdl, "Mirrored_Sky_Map", around->mirrored_sky_map);
         sdl_declare_vector(sdl, "Seen_From", around->seen_from_m);
+    }
+    if (around && around->relief_include[0]) sdl_include(sdl, around->relief_include);
+    if (around && around->circle_radius_m > 0) {
         sdl_declare_vector(sdl, "Circle_Centre", around->circle_m);
         sdl_declare_number(sdl, "Circle_Radius", around->circle_radius_m);
     }
@@ -85,18 +88,6 @@ static void write_entities(struct sdl *sdl, const struct passes *p, bool shapes_
     sdl_end(sdl);
 }
 
-static void write_vectors(struct sdl *sdl, const char *name, const struct vec3 *vector, size_t n)
-{
-    sdl_begin(sdl, name);
-    sdl_number(sdl, (double)n);
-    for (size_t i = 0; i < n; i++) {
-        sdl_comma(sdl);
-        sdl_vector(sdl, vector[i]);
-        if (i % 8 == 7) sdl_newline(sdl);
-    }
-    sdl_end(sdl);
-}
-
 /* The receivers in both passes are one mesh, and the sky's light on it is one function of its uv. */
 static void write_receivers(struct sdl *sdl, const struct passes *p, bool entities)
 {
@@ -110,8 +101,8 @@ static void write_receivers(struct sdl *sdl, const struct passes *p, bool entiti
         return;
     }
     sdl_begin(sdl, "mesh2");
-    write_vectors(sdl, "vertex_vectors", g->position_m, g->vertices);
-    if (p->place_include) write_vectors(sdl, "normal_vectors", g->normal, g->vertices);
+    mesh_sdl_vectors(sdl, "vertex_vectors", g->position_m, g->vertices);
+    if (p->place_include) mesh_sdl_vectors(sdl, "normal_vectors", g->normal, g->vertices);
     sdl_begin(sdl, "uv_vectors");
     sdl_number(sdl, (double)g->vertices);
     for (size_t i = 0; i < g->vertices; i++) {

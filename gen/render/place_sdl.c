@@ -3,21 +3,18 @@
 #include "gen/render/mesh_sdl.h"
 #include "gen/render/sdl.h"
 
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-static struct vec3 corner(const struct static_cut *cut, uint32_t i)
+static void write_vertices(struct sdl *sdl, const struct static_cut *cut)
 {
-    const float *p = cut->position_m[i];
-    return vec3((double)p[0], (double)p[1], (double)p[2]);
-}
-
-static void write_vertices(struct sdl *sdl, const char *name, const struct static_cut *cut, const struct vec3 *normal)
-{
-    sdl_begin(sdl, name);
+    sdl_begin(sdl, "vertex_vectors");
     sdl_number(sdl, (double)cut->vertices);
     for (size_t i = 0; i < cut->vertices; i++) {
+        const float *p = cut->position_m[i];
         sdl_comma(sdl);
-        sdl_vector(sdl, normal ? normal[i] : corner(cut, (uint32_t)i));
+        sdl_vector(sdl, vec3((double)p[0], (double)p[1], (double)p[2]));
         if (i % 8 == 7) sdl_newline(sdl);
     }
     sdl_end(sdl);
@@ -31,10 +28,46 @@ static void write_cut(struct sdl *sdl, const char *name, const struct static_cut
         return;
     }
     sdl_begin(sdl, "mesh2");
-    write_vertices(sdl, "vertex_vectors", cut, NULL);
-    if (normal) write_vertices(sdl, "normal_vectors", cut, normal);
+    write_vertices(sdl, cut);
+    if (normal) mesh_sdl_vectors(sdl, "normal_vectors", normal, cut->vertices);
     mesh_sdl_faces(sdl, cut->triangle, cut->triangles);
     sdl_end(sdl);
+}
+
+/* The level faces, and the smooth normals of their corners. */
+static bool level_part(struct static_cut *level, struct vec3 **normal, const struct static_cut *cut, struct error *err)
+{
+    struct static_cut part = { .position_m = calloc(cut->vertices + 1, sizeof *part.position_m),
+                               .triangle = calloc(cut->triangles + 1, sizeof *part.triangle) };
+    uint32_t *number = malloc((cut->vertices + 1) * sizeof *number);
+    struct vec3 *smooth = NULL;
+    bool ok = ((part.position_m && part.triangle && number) || error_set(err, ERR_MEMORY, "no memory for the place")) &&
+              static_cut_normals(&smooth, cut, err);
+    for (size_t i = 0; ok && i < cut->vertices; i++) number[i] = UINT32_MAX;
+    for (size_t i = 0; ok && i < cut->triangles; i++) {
+        const uint32_t *t = cut->triangle[i];
+        if (fmin(fmin(smooth[t[0]].z, smooth[t[1]].z), smooth[t[2]].z) < RELIEF_LEVEL) continue;
+        for (int k = 0; k < 3; k++) {
+            if (number[t[k]] == UINT32_MAX) {
+                number[t[k]] = (uint32_t)part.vertices;
+                memcpy(part.position_m[part.vertices++], cut->position_m[t[k]], sizeof *cut->position_m);
+            }
+            part.triangle[part.triangles][k] = number[t[k]];
+        }
+        part.triangles++;
+    }
+    struct vec3 *of_part = ok ? calloc(part.vertices + 1, sizeof *of_part) : NULL;
+    if (ok && !of_part) ok = error_set(err, ERR_MEMORY, "no memory for the place");
+    for (size_t i = 0; ok && i < cut->vertices; i++)
+        if (number[i] != UINT32_MAX) of_part[number[i]] = smooth[i];
+    free(number);
+    free(smooth);
+    if (ok) {
+        *level = part;
+        *normal = of_part;
+    } else
+        static_cut_release(&part);
+    return ok;
 }
 
 static bool write_include(struct sdl *sdl, const char *path, struct error *err)
@@ -47,13 +80,16 @@ static bool write_include(struct sdl *sdl, const char *path, struct error *err)
 bool place_include_write(const char *path, const struct static_cut *receivers, const struct static_cut *rest,
                          struct error *err)
 {
+    struct static_cut level = { 0 };
     struct vec3 *normal = NULL;
-    if (!static_cut_normals(&normal, receivers, err)) return false;
+    if (!level_part(&level, &normal, receivers, err)) return false;
     struct sdl sdl;
     sdl_init(&sdl);
     sdl_header(&sdl, "the place round the entities of a frame: metres, world");
-    write_cut(&sdl, "Receivers", receivers, normal);
+    write_cut(&sdl, "Receivers", receivers, NULL);
+    write_cut(&sdl, "Level", &level, normal);
     write_cut(&sdl, "Rest", rest, NULL);
+    static_cut_release(&level);
     free(normal);
     return write_include(&sdl, path, err);
 }
@@ -64,5 +100,21 @@ bool shades_include_write(const char *path, const struct static_cut *shades, str
     sdl_init(&sdl);
     sdl_header(&sdl, "what of the place can keep the sun from the ground round the entities of a frame: metres, world");
     write_cut(&sdl, "Shades", shades, NULL);
+    return write_include(&sdl, path, err);
+}
+
+bool relief_include_write(const char *path, const struct relief *relief, struct error *err)
+{
+    struct sdl sdl;
+    sdl_init(&sdl);
+    sdl_header(&sdl, "the place as mirrors meet it, seen from among the entities of a frame: metres, world");
+    sdl_declare(&sdl, "Relief");
+    if (relief->triangles) {
+        sdl_begin(&sdl, "mesh2");
+        mesh_sdl_vectors(&sdl, "vertex_vectors", relief->point_m, relief->points);
+        mesh_sdl_faces(&sdl, relief->triangle, relief->triangles);
+        sdl_end(&sdl);
+    } else
+        mesh_sdl_nowhere(&sdl);
     return write_include(&sdl, path, err);
 }

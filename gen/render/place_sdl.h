@@ -2,17 +2,22 @@
 #ifndef STAFFAGE_GEN_PLACE_SDL_H
 #define STAFFAGE_GEN_PLACE_SDL_H
 
+#include "gen/light/relief.h"
 #include "gen/world/static_mesh.h"
 #include "lib/error.h"
 
 #include <stdbool.h>
 
-/* Declares Receivers (what is round the entities, smooth normals) and Rest (what can shade the entities at most).
+/* Declares Receivers (what is round the entities), Level (its level faces, smooth normals: the ground as mirrors meet it;
+ * the rest of it is on the relief) and Rest (what can shade the entities at most).
  * Err, here and below: ERR_IO, ERR_MEMORY */
 bool place_include_write(const char *path, const struct static_cut *receivers, const struct static_cut *rest,
                          struct error *err);
 
 /* Declares Shades: what of the place shades the receivers. */
 bool shades_include_write(const char *path, const struct static_cut *shades, struct error *err);
+
+/* Declares Relief: the place as mirrors meet it. */
+bool relief_include_write(const char *path, const struct relief *relief, struct error *err);
 
 #endif

@@ -1,0 +1,37 @@
+/* The place round the entities as mirrors meet it: a coarse surface of what is seen from among them, as far away as it is.
+ * The panorama is its picture. What is not seen from there is not on it, nor the ground near the entities, which is
+ * mirrored in sun and sky. */
+#ifndef STAFFAGE_GEN_RELIEF_H
+#define STAFFAGE_GEN_RELIEF_H
+
+#include "gen/world/static_mesh.h"
+#include "lib/error.h"
+#include "lib/vec.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Of a normal's z, above: ground, and no side of what stands on it. */
+#define RELIEF_LEVEL 0.8
+/* So far below the horizon the place is on the relief, and in the panorama. */
+#define RELIEF_LOWEST_RAD (30 * M_PI / 180)
+
+struct relief {
+    struct vec3 *point_m;        /* (points) world */
+    size_t points;
+    uint32_t (*triangle)[3];     /* (triangles) */
+    size_t triangles;
+};
+
+struct relief_input {
+    const struct static_mesh *place;
+    struct vec3 from_m;          /* as the panorama's */
+    struct vec2 low_m, high_m;   /* world x, y: within these corners the ground has its orthophoto */
+};
+
+/* Out: *relief, initialized here; free with relief_release
+ * Err: ERR_MEMORY */
+bool relief_create(struct relief *relief, const struct relief_input *in, struct error *err);
+void relief_release(struct relief *relief);
+
+#endif
