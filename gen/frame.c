@@ -55,8 +55,7 @@ static bool place_occluders(struct frame *f, struct error *err)
     return true;
 }
 
-/* The ground right below an entity. */
-static struct plane local_ground(const struct frame *f, const struct entity *entity)
+struct plane frame_local_ground(const struct frame *f, const struct entity *entity)
 {
     if (!f->stage->mesh) return f->scene->ground;
     struct vec3 normal = mat3_column(entity->world_from_entity.rotation, 2);
@@ -88,7 +87,7 @@ static bool set_stage(struct frame *f, struct error *err)
     f->matters = calloc(f->moment.n + 1, sizeof *f->matters);
     if (!f->receivers || !f->occluders || !f->matters) return error_set(err, ERR_MEMORY, "no memory for a frame");
     for (size_t i = 0; i < f->moment.n; i++) {
-        struct plane ground = local_ground(f, &f->moment.entities[i]);
+        struct plane ground = frame_local_ground(f, &f->moment.entities[i]);
         if (!receiver_create(&f->receivers[i], &f->moment.entities[i], &ground, f->context->light,
                              shaded_around(f, &f->moment.entities[i]), err))
             return false;

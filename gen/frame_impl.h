@@ -41,8 +41,11 @@ bool frame_expose(struct frame *f, struct error *err);
 /* The manifest, the last file of a frame: frame_manifest.c */
 bool frame_write_manifest(const struct frame *f, const struct frame_result *result, struct error *err);
 /* What is round the entities that matter, into the frame's folder: frame_surroundings.c
+ * In: sight  the sky past them and the place
  * Out: *surroundings, untouched on failure; free with frame_release_surroundings */
-bool frame_write_surroundings(struct pass_surroundings *surroundings, struct frame *f, struct error *err);
+bool frame_write_surroundings(struct pass_surroundings *surroundings, struct frame *f, const struct sky_sight *sight, struct error *err);
+/* The ground right below an entity: frame.c */
+struct plane frame_local_ground(const struct frame *f, const struct entity *entity);
 void frame_release_surroundings(struct pass_surroundings *surroundings);
 /* What POV-Ray renders, in a view: frame_passes.c */
 bool frame_write_passes(struct frame *f, const struct view *view, struct error *err);

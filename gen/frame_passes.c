@@ -50,19 +50,20 @@ static bool write_place(struct place_files *files, struct shaded_ground *ground,
     return ok;
 }
 
-/* The sky's light on the ground, past the place and the entities that matter. */
-static bool light_ground(struct shaded_ground *ground, const struct static_cut *around, const struct frame *f,
-                         struct error *err)
+/* The sky past the place and the entities that matter. Out: *sight, the caller's, after a failure, too */
+static bool open_sight(struct sky_sight **sight, const struct static_cut *around, const struct frame *f, struct error *err)
 {
-    struct pass_settings settings = pass_settings(f->scene->quality);
-    struct shaded_ground_detail detail = { f->shot->world_from_camera.translation, 1 / camera_intrinsics(f->camera).fx_px, settings.fine_px };
-    struct sky_sight *sight = NULL;
-    bool ok = sky_sight_create(&sight, f->context->light, settings.sky_directions, around, err);
+    bool ok = sky_sight_create(sight, f->context->light, pass_settings(f->scene->quality).sky_directions, around, err);
     for (size_t i = 0; ok && i < f->moment.n; i++)
-        ok = !f->matters[i] || sky_sight_add(sight, f->context->tracer, &f->moment.entities[i], &f->receivers[i], err);
-    ok = ok && shaded_ground_shade(ground, sight, detail, err);
-    sky_sight_destroy(sight);
+        ok = !f->matters[i] || sky_sight_add(*sight, f->context->tracer, &f->moment.entities[i], &f->receivers[i], err);
     return ok;
+}
+
+static bool light_ground(struct shaded_ground *ground, const struct sky_sight *sight, const struct frame *f, struct error *err)
+{
+    double fine_px = pass_settings(f->scene->quality).fine_px;
+    struct shaded_ground_detail detail = { f->shot->world_from_camera.translation, 1 / camera_intrinsics(f->camera).fx_px, fine_px };
+    return shaded_ground_shade(ground, sight, detail, err);
 }
 
 bool frame_write_passes(struct frame *f, const struct view *view, struct error *err)
@@ -76,6 +77,7 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
     struct place_files files;
     struct shaded_ground ground = { 0 };
     struct static_cut around = { 0 };
+    struct sky_sight *sight = NULL;
     bool ok = (entities && receivers && includes) || error_set(err, ERR_MEMORY, "no memory for a frame");
     for (size_t i = 0; ok && i < f->moment.n; i++) {
         if (!f->matters[i]) continue;
@@ -94,11 +96,13 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
         .place_include = f->stage->mesh ? files.place : NULL, .shades_include = f->stage->mesh ? files.shades : NULL,
         .surroundings = &surroundings,
     };
-    ok = ok && frame_write_surroundings(&surroundings, f, err) &&
+    ok = ok &&
          (f->stage->mesh ? write_place(&files, &ground, &around, &passes.ground, f, err)
-                               : shaded_ground_of_plane(&ground, &f->scene->ground, receivers, n, err)) &&
-         light_ground(&ground, &around, f, err) && passes_write(f->folder, &passes, err);
+                         : shaded_ground_of_plane(&ground, &f->scene->ground, receivers, n, err)) &&
+         open_sight(&sight, &around, f, err) && frame_write_surroundings(&surroundings, f, sight, err) &&
+         light_ground(&ground, sight, f, err) && passes_write(f->folder, &passes, err);
     frame_release_surroundings(&surroundings);
+    sky_sight_destroy(sight);
     shaded_ground_release(&ground);
     static_cut_release(&around);
     free(entities);

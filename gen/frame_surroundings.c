@@ -9,6 +9,7 @@
 #include "gen/light/standing.h"
 #include "gen/light/unhidden.h"
 #include "gen/render/place_sdl.h"
+#include "gen/trace/bounced.h"
 #include "lib/file.h"
 
 #include <math.h>
@@ -82,21 +83,36 @@ static bool write_sun_share(struct pass_surroundings *out, struct frame *f, cons
 }
 
 static bool write_ground(struct pass_surroundings *out, double color_gain[3], const struct frame *f, const struct seen *seen,
-                         struct error *err)
+                         const struct sky_sight *sight, struct error *err)
 {
     struct entity *entities = calloc(f->moment.n + 1, sizeof *entities);
-    if (!entities) return error_set(err, ERR_MEMORY, "no memory for a frame");
+    struct bounced_ground *below = calloc(f->moment.n + 1, sizeof *below);
+    if (!entities || !below) {
+        free(entities);
+        free(below);
+        return error_set(err, ERR_MEMORY, "no memory for a frame");
+    }
     struct orthophoto_input in = {
         .seen = seen, .light = f->context->light, .ground = f->stage->mesh ? NULL : &f->scene->ground,
         .sun = &out->sun_share, .ground_reflection = f->scene->ground_reflection, .place = f->stage->mesh, .place_depth = &f->labels.place_depth,
         .entities = entities,
     };
     memcpy(in.ground_albedo, f->scene->ground_albedo, sizeof in.ground_albedo);
-    for (size_t i = 0; i < f->moment.n; i++)
-        if (f->matters[i]) entities[in.n++] = f->moment.entities[i];
+    for (size_t i = 0; i < f->moment.n; i++) {
+        if (!f->matters[i]) continue;
+        struct vec3 at = f->moment.entities[i].world_from_entity.translation;
+        below[in.n] = (struct bounced_ground){ { at.x, at.y }, frame_local_ground(f, &f->moment.entities[i]) };
+        entities[in.n++] = f->moment.entities[i];
+    }
     struct orthophoto ground;
     bool ok = orthophoto_create(&ground, &in, err);
+    if (ok) {
+        struct bounced_input bounced = { .sight = sight, .light = in.light, .sun = in.sun, .low_m = ground.low_m, .high_m = ground.high_m,
+                                         .ground = below, .n = in.n };
+        bounced_shade(&ground.bouncing, &bounced);
+    }
     free(entities);
+    free(below);
     if (!ok) return false;
     ok = write_image(out->orthophoto, f, "orthophoto.png", &ground.mirrored, err) &&
          write_image(out->orthophoto_coarse, f, "orthophoto-coarse.png", &ground.bouncing, err);
@@ -184,7 +200,7 @@ void frame_release_surroundings(struct pass_surroundings *surroundings)
     *surroundings = (struct pass_surroundings){ .sky_map = "" };
 }
 
-bool frame_write_surroundings(struct pass_surroundings *surroundings, struct frame *f, struct error *err)
+bool frame_write_surroundings(struct pass_surroundings *surroundings, struct frame *f, const struct sky_sight *sight, struct error *err)
 {
     struct pass_surroundings out = { .sky_map = "" };
     double color_gain[3] = { 0, 0, 0 };
@@ -194,7 +210,7 @@ bool frame_write_surroundings(struct pass_surroundings *surroundings, struct fra
         (n && !unhidden_create(&unhidden, f->occluders, n, f->picture.width_px, f->picture.height_px, err)))
         return false;
     struct seen seen = seen_of(f, n ? &unhidden : NULL);
-    bool ok = write_sun_share(&out, f, &seen, err) && write_ground(&out, color_gain, f, &seen, err) && write_sky(&out, color_gain, f, &seen, err) &&
+    bool ok = write_sun_share(&out, f, &seen, err) && write_ground(&out, color_gain, f, &seen, sight, err) && write_sky(&out, color_gain, f, &seen, err) &&
               write_relief(&out, f, err) &&              write_standing(&out, f, &seen, err);
     image_release(&unhidden);
     if (ok) *surroundings = out;

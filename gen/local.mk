@@ -98,6 +98,7 @@ gen_libgen_a_SOURCES = \
   %D%/stage.c %D%/stage.h \
   %D%/stage_cast.c %D%/stage_cast.h \
   %D%/trace/backdrop.c %D%/trace/backdrop.h \
+  %D%/trace/bounced.c %D%/trace/bounced.h \
   %D%/trace/cast.c %D%/trace/cast.h \
   %D%/sunlit.c %D%/sunlit.h \
   %D%/trace/footprint.c %D%/trace/footprint.h \
