@@ -164,9 +164,20 @@ static bool write_sky(struct pass_surroundings *out, const double color_gain[3],
 static bool write_relief(struct pass_surroundings *out, const struct frame *f, struct error *err)
 {
     if (!f->stage->mesh || !out->mirrored_sky_map[0]) return true;
-    struct relief_input in = { .place = f->stage->mesh, .from_m = out->seen_from_m, .low_m = out->low_m, .high_m = out->high_m };
+    struct prism *known = calloc(f->around.n + 1, sizeof *known); /* borrowed */
+    struct entity *entities = calloc(f->moment.n + 1, sizeof *entities);
+    struct relief_input in = { .place = f->stage->mesh, .from_m = out->seen_from_m, .entities = entities, .known = known };
+    for (size_t i = 0; known && entities && i < f->around.n; i++) {
+        if (!f->matters[i]) continue;
+        known[in.known_count++] = f->around.receivers[i];
+        entities[in.n++] = f->moment.entities[i];
+    }
     struct relief relief;
-    if (!relief_create(&relief, &in, err)) return false;
+    bool found = (known && entities) || error_set(err, ERR_MEMORY, "no memory for a frame");
+    found = found && relief_create(&relief, &in, err);
+    free(entities);
+    free(known);
+    if (!found) return false;
     snprintf(out->relief_include, SURROUNDINGS_PATH_SIZE, "frames/%s/relief.inc", f->name);
     char *path = string_format("%s/relief.inc", f->folder);
     bool ok = (path || error_set(err, ERR_MEMORY, "no memory for a path")) && relief_include_write(path, &relief, err);

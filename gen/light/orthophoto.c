@@ -125,6 +125,8 @@ static double reach_of(const struct entity *e)
     return hypot(size.x, size.y) / 2 + ORTHOPHOTO_REACH_M;
 }
 
+double orthophoto_whole(const struct entity *entity) { return reach_of(entity) - FADE_M; }
+
 /* A window round the entities, at places that do not move with them. */
 static void lay_window(struct sheet *sheet)
 {

@@ -39,6 +39,9 @@ struct orthophoto_input {
 };
 #define ORTHOPHOTO_REACH_M 12.0
 
+/* So far from an entity's middle, nothing of `elsewhere` is mixed in yet. */
+double orthophoto_whole(const struct entity *entity);
+
 /* Out: *orthophoto, initialized here; free with orthophoto_release
  * Err: ERR_MEMORY */
 bool orthophoto_create(struct orthophoto *orthophoto, const struct orthophoto_input *in, struct error *err);

@@ -1,9 +1,10 @@
 /* The place round the entities as mirrors meet it: a coarse surface of what is seen from among them, as far away as it is.
- * The panorama is its picture. What is not seen from there is not on it, nor the ground near the entities, which is
- * mirrored in sun and sky. */
+ * The panorama is its picture, but for level ground that has its orthophoto: that lies in sun and sky, so that
+ * entities shade it. What is not seen from there is not on it. */
 #ifndef STAFFAGE_GEN_RELIEF_H
 #define STAFFAGE_GEN_RELIEF_H
 
+#include "gen/world/entity.h"
 #include "gen/world/static_mesh.h"
 #include "lib/error.h"
 #include "lib/vec.h"
@@ -19,14 +20,17 @@
 struct relief {
     struct vec3 *point_m;        /* (points) world */
     size_t points;
-    uint32_t (*triangle)[3];     /* (triangles) */
-    size_t triangles;
+    uint32_t (*triangle)[3], (*ground)[3]; /* (triangles), (grounds) with an orthophoto */
+    size_t triangles, grounds;
 };
 
 struct relief_input {
     const struct static_mesh *place;
     struct vec3 from_m;          /* as the panorama's */
-    struct vec2 low_m, high_m;   /* world x, y: within these corners the ground has its orthophoto */
+    const struct entity *entities; /* (n) level ground round these has its orthophoto */
+    size_t n;
+    const struct prism *known;   /* (known_count) level ground within these is left out: it is there already */
+    size_t known_count;
 };
 
 /* Out: *relief, initialized here; free with relief_release

@@ -103,18 +103,25 @@ bool shades_include_write(const char *path, const struct static_cut *shades, str
     return write_include(&sdl, path, err);
 }
 
+static void write_part(struct sdl *sdl, const char *name, const struct relief *relief, const uint32_t (*triangle)[3], size_t triangles)
+{
+    sdl_declare(sdl, name);
+    if (!triangles) {
+        mesh_sdl_nowhere(sdl);
+        return;
+    }
+    sdl_begin(sdl, "mesh2");
+    mesh_sdl_vectors(sdl, "vertex_vectors", relief->point_m, relief->points);
+    mesh_sdl_faces(sdl, triangle, triangles);
+    sdl_end(sdl);
+}
+
 bool relief_include_write(const char *path, const struct relief *relief, struct error *err)
 {
     struct sdl sdl;
     sdl_init(&sdl);
     sdl_header(&sdl, "the place as mirrors meet it, seen from among the entities of a frame: metres, world");
-    sdl_declare(&sdl, "Relief");
-    if (relief->triangles) {
-        sdl_begin(&sdl, "mesh2");
-        mesh_sdl_vectors(&sdl, "vertex_vectors", relief->point_m, relief->points);
-        mesh_sdl_faces(&sdl, relief->triangle, relief->triangles);
-        sdl_end(&sdl);
-    } else
-        mesh_sdl_nowhere(&sdl);
+    write_part(&sdl, "Relief", relief, relief->triangle, relief->triangles);
+    write_part(&sdl, "Relief_Ground", relief, relief->ground, relief->grounds);
     return write_include(&sdl, path, err);
 }

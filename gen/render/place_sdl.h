@@ -17,7 +17,7 @@ bool place_include_write(const char *path, const struct static_cut *receivers, c
 /* Declares Shades: what of the place shades the receivers. */
 bool shades_include_write(const char *path, const struct static_cut *shades, struct error *err);
 
-/* Declares Relief: the place as mirrors meet it. */
+/* Declares Relief, the place as mirrors meet it, and Relief_Ground, its ground that has an orthophoto. */
 bool relief_include_write(const char *path, const struct relief *relief, struct error *err);
 
 #endif
