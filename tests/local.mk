@@ -127,10 +127,20 @@ tests_gen_orthophoto_test_SOURCES = %D%/gen/orthophoto.c %D%/gen/place.h %D%/gen
 nodist_EXTRA_tests_gen_orthophoto_test_SOURCES = dummy.cxx
 tests_gen_orthophoto_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/bounced.test
+tests_gen_bounced_test_SOURCES = %D%/gen/bounced.c %D%/gen/solid.h %D%/tap.h
+nodist_EXTRA_tests_gen_bounced_test_SOURCES = dummy.cxx
+tests_gen_bounced_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/panorama.test
 tests_gen_panorama_test_SOURCES = %D%/gen/panorama.c %D%/gen/place.h %D%/gen/view_above.h %D%/tap.h
 nodist_EXTRA_tests_gen_panorama_test_SOURCES = dummy.cxx
 tests_gen_panorama_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/relief.test
+tests_gen_relief_test_SOURCES = %D%/gen/relief.c %D%/gen/place.h %D%/gen/solid.h %D%/tap.h
+nodist_EXTRA_tests_gen_relief_test_SOURCES = dummy.cxx
+tests_gen_relief_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/push_pull.test
 tests_gen_push_pull_test_SOURCES = %D%/gen/push_pull.c %D%/tap.h
@@ -138,7 +148,7 @@ nodist_EXTRA_tests_gen_push_pull_test_SOURCES = dummy.cxx
 tests_gen_push_pull_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/surroundings_povray.test
-tests_gen_surroundings_povray_test_SOURCES = %D%/gen/surroundings_povray.c %D%/gen/povray.h %D%/gen/solid.h %D%/gen/view_above.h %D%/tap.h
+tests_gen_surroundings_povray_test_SOURCES = %D%/gen/surroundings_povray.c %D%/gen/place.h %D%/gen/povray.h %D%/gen/solid.h %D%/gen/view_above.h %D%/tap.h
 nodist_EXTRA_tests_gen_surroundings_povray_test_SOURCES = dummy.cxx
 tests_gen_surroundings_povray_test_LDADD = $(GEN_LIBS)
 

@@ -185,11 +185,19 @@ static void over_a_place(const struct light *light)
     if (OK(panorama_create(&p, &in, &err), "over a place")) {
         near_radiance(&p.mirrored, 90, 10, 0.8, 0.2, 0.2, "what the picture shows on a wall is there");
         near_radiance(&p.mirrored, 90, 3, 0.2, 0.2, 0.2, "and not lower");
+        near_radiance(&p.mirrored, 90, -20, 0.2, 0.2, 0.2, "below the horizon the ground is as the picture shows it");
         near_radiance(&p.mirrored, 270, 3, 0.43172, 0.43172, 0.43172, "a wall that the picture does not show has the mesh's colour");
         double sky[3], model[3];
         radiance_at(sky, &p.mirrored, 270, 30);
         light_sky_radiance(model, light, vec3(0, -cos(M_PI / 6), sin(M_PI / 6)));
         NEAR(sky[2], model[2], 0.03 * model[2], "above it is the sky");
+        panorama_release(&p);
+    }
+    /* Something 8 m away that the mesh has 3 px beside what is looked at on the red patch: the picture may show it there. */
+    for (int y = 195; y < 215; y++)
+        for (int x = 205; x < 240; x++) *image_f32(&depth, x, y) = 8;
+    if (OK(panorama_create(&p, &in, &err), "with something before it")) {
+        near_radiance(&p.mirrored, 88, 10, 0.43172, 0.43172, 0.43172, "beside an outline of the mesh its own colour counts");
         panorama_release(&p);
     }
     static_mesh_destroy(mesh);

@@ -2,6 +2,8 @@
 #include "gen/light/orthophoto.h"
 #include "gen/light/sky_image.h"
 #include "gen/render/passes.h"
+#include "gen/render/place_sdl.h"
+#include "tests/gen/place.h"
 #include "tests/gen/povray.h"
 #include "tests/gen/solid.h"
 #include "tests/gen/view_above.h"
@@ -18,7 +20,7 @@ static struct scene scene = {
 };
 
 /* What stands around, when it has a picture. */
-static struct { struct image map; struct vec3 from_m, centre_m; double radius_m; } circle;
+static struct { struct image map; struct vec3 from_m, centre_m; double radius_m; const struct relief *relief; } circle;
 
 /* Of radius 1, its middle at `middle`. */
 static void ball(struct solid *solid)
@@ -91,6 +93,12 @@ static bool render(struct image *pass, const struct light *light, const struct e
             around.seen_from_m = circle.from_m;
             around.circle_m = circle.centre_m;
             around.circle_radius_m = circle.radius_m;
+            if (circle.relief) {
+                char *relief = string_format("%s/relief.inc", folder);
+                ok = ok && relief_include_write(relief, circle.relief, &err);
+                free(relief);
+                strcpy(around.relief_include, "frames/relief.inc");
+            }
         }
         p.surroundings = &around;
         orthophoto_release(&ground);
@@ -233,8 +241,9 @@ static void test_upright(const struct light *light, struct entity *entity, struc
     image_release(&pass);
 }
 
-/* A red disc of 6 degrees on a circle round the camera, as it is seen from beside the ball: the ball mirrors it from where the ball is. */
-static void test_circle(const struct light *light, struct entity *entity, struct image *picture, double radius_m)
+/* A red disc of 6 degrees on a circle round the camera, or on a wall of a place, as it is seen from beside the ball: the ball mirrors
+ * it from where the ball is. */
+static void test_circle(const struct light *light, struct entity *entity, struct image *picture, double radius_m, const struct static_mesh *place)
 {
     struct error err = ERROR_NONE;
     struct image pass = { 0 };
@@ -242,6 +251,10 @@ static void test_circle(const struct light *light, struct entity *entity, struct
     circle.from_m = vec3(5, 3, 1);
     circle.centre_m = vec3(eye.x, eye.y, 0);
     circle.radius_m = radius_m;
+    struct relief relief = { 0 };
+    struct relief_input in = { .place = place, .from_m = circle.from_m };
+    if (place && !OK(relief_create(&relief, &in, &err), "a relief of a wall")) return;
+    circle.relief = place ? &relief : NULL;
     if (!OK(image_init(&circle.map, 512, 256, 3, PIXEL_F32, &err), "a picture of what stands around")) return;
     for (int y = 0; y < 256; y++)
         for (int x = 0; x < 512; x++) {
@@ -250,18 +263,30 @@ static void test_circle(const struct light *light, struct entity *entity, struct
         }
     fill_px(picture, 0, 0, WIDTH, HEIGHT, 0.2, 0.2, 0.2);
     double sum = 0, sx = 0, sy = 0;
-    if (OK(render(&pass, light, entity, picture, NULL), "a mirror ball on a circle of %g m", radius_m))
+    if (OK(render(&pass, light, entity, picture, NULL), "a mirror ball %s", place ? "before a wall" : radius_m > 0 ? "on a circle" : "below a far sky"))
         for (int y = 0; y < HEIGHT; y++)
             for (int x = 0; x < WIDTH; x++) {
                 double redness = red_at(&pass, x, y);
                 sum += redness, sx += redness * (x + 0.5), sy += redness * (y + 0.5);
             }
-    struct vec2 want = mirrored_at(radius_m > 0 ? disc : vec3_add(middle, vec3_scale(vec3_sub(disc, circle.from_m), 1000)));
+    struct vec2 want = mirrored_at(radius_m > 0 || place ? disc : vec3_add(middle, vec3_scale(vec3_sub(disc, circle.from_m), 1000)));
     OK(sum > 0, "the ball shows the disc");
-    NEAR(sx / sum, want.x, 0.7, "%s, across", radius_m > 0 ? "where it stands" : "as far away as the sky it is in its direction");
+    NEAR(sx / sum, want.x, 0.7, "%s, across", radius_m > 0 || place ? "where it stands" : "as far away as the sky it is in its direction");
     NEAR(sy / sum, want.y, 0.7, "and down");
     image_release(&pass);
     image_release(&circle.map);
+    relief_release(&relief);
+}
+
+static void test_relief(const struct light *light, struct entity *entity, struct image *picture)
+{
+    struct error err = ERROR_NONE;
+    struct place place = { 0 };
+    struct static_mesh *mesh = NULL;
+    place_wall(&place, -40, 60, eye.y - sqrt(0.75) * 20, 0, 20, 0);
+    if (OK(place_mesh(&mesh, &place, false, &err), "a wall")) test_circle(light, entity, picture, 0, mesh);
+    static_mesh_destroy(mesh);
+    place_free(&place);
 }
 
 int main(void)
@@ -282,8 +307,9 @@ int main(void)
     test_mirror(&light, &entity, &picture, vec3(1.2, -1.9, 0));
     test_mirror(&light, &entity, &picture, vec3(-2, -1.4, 0));
     test_upright(&light, &entity, &picture);
-    test_circle(&light, &entity, &picture, 20);
-    test_circle(&light, &entity, &picture, 0);
+    test_circle(&light, &entity, &picture, 20, NULL);
+    test_circle(&light, &entity, &picture, 0, NULL);
+    test_relief(&light, &entity, &picture);
     image_release(&picture);
     light_release(&light);
     solid_free(&white);

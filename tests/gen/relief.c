@@ -1,0 +1,84 @@
+/* What mirrors meet of a place: a wall, a post before it, and the ground. */
+#include "gen/light/relief.h"
+
+#include "gen/light/orthophoto.h"
+
+#include "tests/gen/place.h"
+#include "tests/gen/solid.h"
+#include "tests/tap.h"
+
+#define WALL_Y 30.0
+#define POST_Y 8.0
+
+/* Of a triangle: do all corners lie on a plane y = at? */
+static bool upright_at(const struct relief *r, const uint32_t triangle[3], double at)
+{
+    for (int k = 0; k < 3; k++)
+        if (fabs(r->point_m[triangle[k]].y - at) > 1e-4) return false;
+    return true;
+}
+
+static double highest(const struct relief *r, const uint32_t triangle[3])
+{
+    return fmax(fmax(r->point_m[triangle[0]].z, r->point_m[triangle[1]].z), r->point_m[triangle[2]].z);
+}
+
+static double nearest_y(const struct relief *r, const uint32_t triangle[3])
+{
+    return fmin(fmin(r->point_m[triangle[0]].y, r->point_m[triangle[1]].y), r->point_m[triangle[2]].y);
+}
+
+static double farthest_y(const struct relief *r, const uint32_t triangle[3])
+{
+    return fmax(fmax(r->point_m[triangle[0]].y, r->point_m[triangle[1]].y), r->point_m[triangle[2]].y);
+}
+
+int main(void)
+{
+    struct error err = ERROR_NONE;
+    struct place place = { 0 };
+    struct static_mesh *mesh = NULL;
+    struct solid box;
+    struct relief r;
+    static const struct vec2 near[] = { { -3, -3 }, { 3, -3 }, { 3, 3 }, { -3, 3 } };
+    const struct prism known = { near, 4, 0, { 0, 0, 1 }, -1, 1 };
+    solid_box(&box, 4, 2, 1.5);
+    struct entity entity = { .id = 1, .name = "box", .model = &box.model, .world_from_entity = pose_identity() };
+    place_ground(&place, 0, 0);
+    place_wall(&place, -20, 20, WALL_Y, 0, 6, 0);
+    place_wall(&place, -1, 1, POST_Y, 0, 5, 0);
+    struct relief_input in = { .from_m = { 0, 0, 1 }, .entities = &entity, .n = 1, .known = &known, .known_count = 1 };
+    if (!OK(place_mesh(&mesh, &place, false, &err), "a place")) return tap_done();
+    in.place = mesh;
+    if (!OK(relief_create(&r, &in, &err), "its relief: %s", err.text)) return tap_done();
+    size_t wall = 0, post = 0, ground = 0, between = 0;
+    double wall_top = 0, post_top = 0, farthest = 0, nearest = INFINITY;
+    for (size_t i = 0; i < r.triangles; i++) {
+        const uint32_t *t = r.triangle[i];
+        bool of_wall = upright_at(&r, t, WALL_Y), of_post = upright_at(&r, t, POST_Y);
+        wall += of_wall;
+        post += of_post;
+        between += nearest_y(&r, t) < POST_Y + 1e-4 && farthest_y(&r, t) > WALL_Y - 1e-4;
+        if (of_wall) wall_top = fmax(wall_top, highest(&r, t));
+        if (of_post) post_top = fmax(post_top, highest(&r, t));
+    }
+    for (size_t i = 0; i < r.grounds; i++) {
+        struct vec3 a = r.point_m[r.ground[i][0]], b = r.point_m[r.ground[i][1]], c = r.point_m[r.ground[i][2]];
+        ground += fabs(a.z) + fabs(b.z) + fabs(c.z) > 1e-4;
+        farthest = fmax(farthest, fmax(hypot(a.x, a.y), fmax(hypot(b.x, b.y), hypot(c.x, c.y))));
+        nearest = fmin(nearest, fmax(fabs(a.x), fabs(a.y)));
+    }
+    OK(wall > 200 && post > 30, "the wall stands where it stands, and so does the post (%zu and %zu faces)", wall, post);
+    /* A step is 1.4 degrees: 0.73 m at the wall, 0.2 m at the post. */
+    NEAR(wall_top, 6, 0.75, "as high as it is");
+    NEAR(post_top, 5, 0.25, "the post, too");
+    OK(between == 0, "nothing spans the gap between post and wall (%zu)", between);
+    OK(r.grounds > 100 && ground == 0, "ground with an orthophoto is level (%zu faces)", r.grounds);
+    OK(farthest <= orthophoto_whole(&entity) + 1e-6 && farthest > 0.7 * orthophoto_whole(&entity), "as far as the orthophoto is whole (%.2f m)", farthest);
+    OK(nearest > 1, "and not where it is known already (%.2f m)", nearest);
+    relief_release(&r);
+    static_mesh_destroy(mesh);
+    place_free(&place);
+    solid_free(&box);
+    return tap_done();
+}
