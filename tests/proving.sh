@@ -4,12 +4,12 @@
 here=$PWD
 PROVING_WIDTH=240 PROVING_FINENESS=1.3 PROVING_FINE=0
 export PROVING_WIDTH PROVING_FINENESS PROVING_FINE
-prove() { ( cd "$top_builddir" && "$top_srcdir/scenes/proving-ground/prove" -o "$here/ground" fixed-noon ); }
+prove() { ( cd "$top_builddir" && "$top_srcdir/scenes/proving-ground/prove" -o "$here/ground" plane-noon ); }
 run prove
 check "a street is photographed, enriched and compared with its truth" is $status 0
 
 # figure METHOD COLUMN, as comparison_print writes them.
-figure() { awk -v method="$1" -v column="$2" '$3 == method { print $column }' ground/fixed-noon/figures-known; }
+figure() { awk -v method="$1" -v column="$2" '$3 == method { print $column }' ground/plane-noon/figures-known; }
 psnr=5 ssim=6 shade=8 color=11 mask=12 amodal=13 depth=14 box=16 amodal_box=17 share=18 semantic=19 position=20 turn=21 size=22 corner=23 edge_width=25
 # within FIGURE LEAST MOST
 within() { awk -v f="$1" -v least="$2" -v most="$3" 'BEGIN { exit !(f != "" && f >= least && f <= most) }'; }

@@ -25,9 +25,11 @@ static const struct proving_shot flight_shots[] = {
     { { 14, 13, 18 }, { 1, -1.5, 0 }, { 0, 0, 1 } },
 };
 
-#define FIXED .shots = fixed_shot, .shot_count = 1, .entities = fixed_cast, .patch_px = { 330, 320, 440, 370 }, \
+#define STANDING .shots = fixed_shot, .shot_count = 1, .entities = fixed_cast, \
     .camera = { CAMERA_OPENCV, 960, 540, { 800, 801, 483.5, 268.2, -0.14, 0.03, 0.0006, -0.0004 } }
-#define FLIGHT .shots = flight_shots, .shot_count = 3, .entities = flight_cast, .has_mesh = true, \
+#define FIXED STANDING, .has_mesh = true
+#define PLANE STANDING, .patch_px = { 330, 320, 440, 370 }
+#define FLIGHT .shots = flight_shots, .shot_count = 3, .entities = flight_cast, .has_mesh = true, .flies = true, \
     .camera = { CAMERA_RADIAL, 960, 540, { 690, 478.2, 272.6, -0.06, 0.01 } }
 #define NOON .time = "2022-06-21T12:40:00+02:00", .light = "{sky: clear, turbidity: 3}", .k = { 0.90, 0.95, 1.02 }
 #define LOW .time = "2022-06-21T18:40:00+02:00", .light = "{sky: clear, turbidity: 3.5, sun_scale: 0.9}", .k = { 0.84, 0.95, 1.08 }
@@ -40,6 +42,10 @@ const struct proving_case proving_cases[] = {
     { .name = "fixed-overcast", FIXED, OVERCAST }, { .name = "fixed-haze", FIXED, HAZE },
     { .name = "flight-noon", FLIGHT, NOON }, { .name = "flight-low", FLIGHT, LOW },
     { .name = "flight-overcast", FLIGHT, OVERCAST }, { .name = "flight-haze", FLIGHT, HAZE },
+    { .name = "plane-noon", .photographed_as = "fixed-noon", PLANE, NOON },
+    { .name = "plane-low", .photographed_as = "fixed-low", PLANE, LOW },
+    { .name = "plane-overcast", .photographed_as = "fixed-overcast", PLANE, OVERCAST },
+    { .name = "plane-haze", .photographed_as = "fixed-haze", PLANE, HAZE },
 };
 const size_t proving_case_count = sizeof proving_cases / sizeof *proving_cases;
 

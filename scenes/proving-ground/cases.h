@@ -27,7 +27,9 @@ struct proving_case {
     double haze[3];             /* linear photograph values */
     const struct proving_shot *shots;
     size_t shot_count;
-    bool has_mesh;              /* the tool is given the reconstruction; else a plane, and lamp post and parked cars as occluders */
+    const char *photographed_as; /* the case whose photographs and truths these are, too; NULL: its own */
+    bool has_mesh;              /* the tool is given the reconstruction; else a plane, and the parked cars as occluders */
+    bool flies;                 /* its photographs color the reconstruction */
     struct camera camera;       /* at full size */
     const struct proving_entity *entities;
     int patch_px[4];            /* sunlit asphalt at full size, without a mesh */
@@ -45,10 +47,11 @@ size_t proving_entity_count(const struct proving_case *c);
 struct pose proving_entity_pose(const struct proving_entity *e);
 /* World from camera: x right, y down, z forward. */
 struct pose proving_shot_pose(const struct proving_shot *s);
-/* The lamp post that stands between the fixed camera and the street. */
+/* The foot of the lamp post that stands between the fixed camera and the street; its arm reaches towards +y. */
 extern const struct vec3 proving_post_m;
 #define PROVING_POST_RADIUS_M 0.07
 #define PROVING_POST_HEIGHT_M 6.0
+#define PROVING_POST_REACH_M 0.9
 /* The ground below the middles of the parked cars, which face +x. */
 extern const struct vec3 proving_parked_m[];
 extern const size_t proving_parked_count;

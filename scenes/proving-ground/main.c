@@ -2,6 +2,7 @@
 #include "compare.h"
 #include "develop.h"
 #include "influence.h"
+#include "map_flight.h"
 #include "picture.h"
 #include "pinhole.h"
 #include "reconstruct.h"
@@ -100,7 +101,8 @@ static bool develop(char **a, struct error *err)
     struct camera camera = camera_of(c);
     struct pinhole pinhole;
     struct image radiance[2] = { 0 }, range[2] = { 0 }, linear[2] = { 0 }, developed[2] = { 0 };
-    uint64_t key = hash_bytes(hash_bytes(FILE_HASH_SEED, c->name, strlen(c->name)), shot, strlen(shot));
+    const char *photographed = c->photographed_as ? c->photographed_as : c->name;
+    uint64_t key = hash_bytes(hash_bytes(FILE_HASH_SEED, photographed, strlen(photographed)), shot, strlen(shot));
     bool ok = pinhole_cover(&pinhole, &camera, fineness(), err) &&
               read_part(&radiance[0], folder, shot, "photograph.exr", err) && read_part(&radiance[1], folder, shot, "truth.exr", err) &&
               read_part(&range[0], folder, shot, "range.png", err) && read_part(&range[1], folder, shot, "truth-range.png", err) &&
@@ -120,22 +122,43 @@ static bool develop(char **a, struct error *err)
     return ok;
 }
 
+static bool read_photographs(struct image *photographs, const char *folder, const struct proving_case *c, struct error *err)
+{
+    bool ok = true;
+    for (size_t i = 0; ok && i < c->shot_count; i++) {
+        char *path = string_format("%s/photograph-%zu.jpg", folder, i);
+        ok = path ? image_read(&photographs[i], path, err) : error_set(err, ERR_MEMORY, "no memory for a path");
+        free(path);
+    }
+    return ok;
+}
+
+static bool read_map(struct image *map, const char *folder, struct error *err)
+{
+    bool ok = true;
+    for (int i = 0; ok && i < PROVING_MAP_VIEWS; i++) {
+        char *name = string_format("%s.exr", map_view(i).kind);
+        ok = name ? read_part(&map[i], folder, "0", name, err) : error_set(err, ERR_MEMORY, "no memory for a path");
+        free(name);
+    }
+    return ok;
+}
+
 static bool reconstruct_place(char **a, struct error *err)
 {
     const struct proving_case *c;
     if (!find_case(&c, a[0], err)) return false;
+    if (!c->has_mesh) return error_set(err, ERR_INPUT, "%s has no mesh", c->name);
     struct camera camera = camera_of(c);
-    struct image heights = { 0 }, *photographs = calloc(c->shot_count, sizeof *photographs);
-    bool ok = photographs && read_part(&heights, a[1], "0", "heights.png", err);
-    for (size_t i = 0; ok && i < c->shot_count; i++) {
-        char *path = string_format("%s/photograph-%zu.jpg", a[1], i);
-        ok = path && image_read(&photographs[i], path, err);
-        free(path);
-    }
+    struct image heights = { 0 }, map[PROVING_MAP_VIEWS] = { 0 }, *photographs = calloc(c->shot_count, sizeof *photographs);
     char *path = string_format("%s/place.ply", a[1]);
-    ok = ok && path && reconstruct(path, &heights, photographs, c, &camera, err);
+    bool ok = (photographs && path) || error_set(err, ERR_MEMORY, "no memory for the reconstruction");
+    ok = ok && read_part(&heights, a[1], "0", "heights.png", err) && read_map(map, a[1], err) &&
+         (!c->flies || read_photographs(photographs, a[1], c, err)) &&
+         reconstruct(path, &heights, map, c->flies ? photographs : NULL, c, &camera, err);
     free(path);
     for (size_t i = 0; photographs && i < c->shot_count; i++) image_release(&photographs[i]);
+    for (int i = 0; i < PROVING_MAP_VIEWS; i++) image_release(&map[i]);
     free(photographs);
     image_release(&heights);
     return ok;

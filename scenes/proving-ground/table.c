@@ -1,3 +1,4 @@
+#include "cases.h"
 #include "compare.h"
 
 #include <math.h>
@@ -79,11 +80,18 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static void print_medians(FILE *f, const struct line *lines, size_t n)
+static bool has_mesh(const struct line *l)
+{
+    const struct proving_case *c = proving_case(l->name);
+    return c && c->has_mesh;
+}
+
+/* Of the cases with a mesh, or of those without. */
+static void print_medians(FILE *f, const struct line *lines, size_t n, bool mesh)
 {
     static const char *const methods[] = { "layers", "ratio", "threshold", "alpha", "fitted", "auto" };
     double values[LINES_MAX];
-    fputs("| median of | psnr_db | ssim | shade_error | color_error |\n| --- | --- | --- | --- | --- |\n", f);
+    size_t rows = 0;
     for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
         size_t found = 0;
         for (size_t i = 0; i < FIGURES; i++) {
@@ -92,9 +100,12 @@ static void print_medians(FILE *f, const struct line *lines, size_t n)
                 continue;
             size_t count = 0;
             for (size_t k = 0; k < n; k++)
-                if (!strcmp(lines[k].method, methods[m])) values[count++] = *value(&lines[k].figures, i);
+                if (!strcmp(lines[k].method, methods[m]) && has_mesh(&lines[k]) == mesh) values[count++] = *value(&lines[k].figures, i);
             if (!count) break;
             qsort(values, count, sizeof *values, ascending);
+            if (!rows++)
+                fprintf(f, "| median, %s | psnr_db | ssim | shade_error | color_error |\n| --- | --- | --- | --- | --- |\n",
+                        mesh ? "cases with a mesh" : "plane cases");
             if (!found++) fprintf(f, "| %s |", methods[m]);
             fputs(" ", f);
             fprintf(f, figures[i].format, (values[(count - 1) / 2] + values[count / 2]) / 2);
@@ -102,6 +113,7 @@ static void print_medians(FILE *f, const struct line *lines, size_t n)
         }
         if (found) fputs("\n", f);
     }
+    if (rows) fputs("\n", f);
 }
 
 bool comparison_table(FILE *f, const char *const *files, size_t n, struct error *err)
@@ -112,8 +124,8 @@ bool comparison_table(FILE *f, const char *const *files, size_t n, struct error 
     for (size_t i = 0; ok && i < n; i++) ok = read_lines(lines, &count, files[i], err);
     if (ok) {
         print_table(f, lines, count, false);
-        print_medians(f, lines, count);
-        fputs("\n", f);
+        print_medians(f, lines, count, true);
+        print_medians(f, lines, count, false);
         print_table(f, lines, count, true);
     }
     free(lines);

@@ -1,5 +1,6 @@
 #include "write_pov.h"
 
+#include "map_flight.h"
 #include "pinhole.h"
 
 #include <stdio.h>
@@ -55,6 +56,16 @@ bool label_window(struct rect *window_px, const struct proving_case *c, size_t s
 static void put_vector(FILE *f, const char *name, struct vec3 v)
 {
     fprintf(f, "%s <%.12g, %.12g, %.12g>\n", name, v.x, v.y, v.z);
+}
+
+static void put_map_camera(FILE *f, const struct map_view *v)
+{
+    fputs("camera {\n  orthographic\n", f);
+    put_vector(f, "  location", vec3_sub(v->middle_m, vec3_scale(v->forward, 100)));
+    put_vector(f, "  right", vec3_scale(v->right, (double)v->width_px / PROVING_MAP_PX_PER_M));
+    put_vector(f, "  up", vec3_scale(v->up, (double)v->height_px / PROVING_MAP_PX_PER_M));
+    put_vector(f, "  direction", v->forward);
+    fputs("}\n", f);
 }
 
 static void put_pinhole(FILE *f, const struct pinhole *p, struct pose world_from_camera)
@@ -125,6 +136,14 @@ static void put_height_texture(FILE *f)
             "  color_map { [0 rgb 0] [1 rgb 1] } } finish { emission 1 diffuse 0 } }\n", PROVING_HEIGHT_M);
 }
 
+/* The view of the mapping flight of this kind; PROVING_MAP_VIEWS: none. */
+static int map_of(const char *kind)
+{
+    int i = 0;
+    while (i < PROVING_MAP_VIEWS && strcmp(kind, map_view(i).kind)) i++;
+    return i;
+}
+
 static bool put_scene(FILE *f, struct pov_job *job, const char *kind, const struct proving_case *c, size_t shot,
                       const struct camera *camera, double fineness, struct error *err)
 {
@@ -132,7 +151,9 @@ static bool put_scene(FILE *f, struct pov_job *job, const char *kind, const stru
     size_t alone = !strncmp(kind, "alone-", 6) ? strtoul(kind + 6, NULL, 10) : 0;
     bool labels = alone || !strcmp(kind, "labels"), heights = !strcmp(kind, "heights"), truth = !strncmp(kind, "truth", 5);
     bool range = !strcmp(kind, "range") || !strcmp(kind, "truth-range"), lit = !labels && !heights && !range;
-    fprintf(f, "#version 3.7;\n// %s, shot %zu: %s\n#declare Lit = %d;\n#declare With_Thin = %d;\n", c->name, shot, kind, lit, !heights);
+    int map = map_of(kind);
+    bool mapped = map < PROVING_MAP_VIEWS;
+    fprintf(f, "#version 3.7;\n// shot %zu: %s\n#declare Lit = %d;\n#declare With_Thin = %d;\n", shot, kind, lit, !heights && !mapped);
     fputs("#include \"settings_proving.inc\"\n", f);
     *job = (struct pov_job){ .is_png = !lit };
     struct pinhole pinhole;
@@ -148,6 +169,11 @@ static bool put_scene(FILE *f, struct pov_job *job, const char *kind, const stru
         double w = PROVING_MESH_COLUMNS * PROVING_MESH_CELL_M, h = PROVING_MESH_ROWS * PROVING_MESH_CELL_M;
         fprintf(f, "camera { orthographic location <%.9g, %.9g, 100> right %.9g * x up %.9g * y direction -z }\n",
                 PROVING_MESH_X0_M + w / 2, PROVING_MESH_Y0_M + h / 2, w, h);
+    } else if (mapped) {
+        struct map_view view = map_view(map);
+        put_map_camera(f, &view);
+        job->width_px = view.width_px;
+        job->height_px = view.height_px;
     } else {
         put_pinhole(f, &pinhole, world_from_camera);
         job->width_px = pinhole.width_px;

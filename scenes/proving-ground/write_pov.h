@@ -16,6 +16,7 @@ enum {
 #define PROVING_MESH_X0_M (-45.0)
 #define PROVING_MESH_Y0_M (-30.0)
 #define PROVING_MESH_CELL_M 0.2
+#define PROVING_HIGHEST_M 15.0 /* nothing in it is higher */
 enum { PROVING_MESH_COLUMNS = 450, PROVING_MESH_ROWS = 260 };
 
 struct pov_job { int width_px, height_px; bool is_png; };
@@ -23,7 +24,8 @@ struct pov_job { int width_px, height_px; bool is_png; };
 /* Write `kind` as a scene: photograph, truth, range, truth-range (through the pinhole, in truths with the entities; whole, so
  * that radiosity takes its samples at the same places); labels (one ray through each pixel's centre, of the place and the
  * entities), alone-N (of entity N alone, in the window that it can cover; of both the picture's first
- * row is to be left out), heights (from above, orthographic).
+ * row is to be left out); heights (from above, orthographic), map-* (of map_flight.h). No text names the
+ * case: those that differ in what the tool is told have the same pictures.
  * In:  camera at the size wanted
  * Out: job, how to render it */
 bool write_pov(struct pov_job *job, const char *path, const char *kind, const struct proving_case *c, size_t shot,

@@ -1,5 +1,7 @@
 #include "write_scene.h"
 
+#include "write_outlines.h"
+
 #include "lib/file.h"
 #include "lib/image.h"
 
@@ -18,75 +20,6 @@ static void put_pose(FILE *f, const struct proving_shot *s)
 {
     fprintf(f, "pose: {look_at: {position_m: [%g, %g, %g], target_m: [%g, %g, %g], up: [%g, %g, %g]}}}", s->eye_m.x, s->eye_m.y,
             s->eye_m.z, s->target_m.x, s->target_m.y, s->target_m.z, s->up.x, s->up.y, s->up.z);
-}
-
-static void put_outline(FILE *f, const char *name, const struct vec2 *q_px, size_t n, struct vec2 ground_px)
-{
-    fprintf(f, "  - name: %s\n    polygon_px: [", name);
-    for (size_t i = 0; i < n; i++) fprintf(f, "%s[%.2f, %.2f]", i ? ", " : "", q_px[i].x, q_px[i].y);
-    fprintf(f, "]\n    ground_px: [%.2f, %.2f]\n", ground_px.x, ground_px.y);
-}
-
-static int ascending(const void *a, const void *b)
-{
-    const struct vec2 *p = a, *q = b;
-    return p->x != q->x ? (p->x > q->x) - (p->x < q->x) : (p->y > q->y) - (p->y < q->y);
-}
-
-/* The convex hull, by Andrew's monotone chain. In/out: q (n), sorted. Out: hull (n + 1). Returns its number of points */
-static size_t hull_of(struct vec2 *hull, struct vec2 *q, size_t n)
-{
-    size_t m = 0, floor = 2;
-    qsort(q, n, sizeof *q, ascending);
-    for (size_t i = 0; i < 2 * n - 1; i++) {
-        struct vec2 p = q[i < n ? i : 2 * n - 2 - i];
-        if (i == n) floor = m + 1;
-        while (m >= floor && (hull[m - 1].x - hull[m - 2].x) * (p.y - hull[m - 2].y) <= (hull[m - 1].y - hull[m - 2].y) * (p.x - hull[m - 2].x)) m--;
-        hull[m++] = p;
-    }
-    return m - 1;
-}
-
-/* The parked cars as their user would draw them: round body and roof, standing below their middle. */
-static bool put_parked(FILE *f, const struct proving_case *c, const struct camera *camera, struct error *err)
-{
-    static const struct vec3 corner_m[] = { { 2.1, 0.82, 0.5 }, { 2.05, 0.8, 0.86 }, { 1.5, 0.82, 0.02 }, { 0.75, 0.7, 1.42 } };
-    enum { CORNERS = 4 * sizeof corner_m / sizeof *corner_m };
-    struct pose camera_from_world = pose_inverse(proving_shot_pose(&c->shots[0]));
-    for (size_t i = 0; i < proving_parked_count; i++) {
-        struct vec2 q[CORNERS], hull[CORNERS + 1], ground;
-        size_t n = 0;
-        while (n < CORNERS) {
-            struct vec3 p = corner_m[n / 4];
-            p = vec3_add(proving_parked_m[i], vec3(n % 2 ? p.x : n / 4 == 3 ? -p.x - 0.3 : -p.x, n / 2 % 2 ? p.y : -p.y, p.z));
-            if (!camera_project(camera, &q[n], pose_apply(camera_from_world, p), err)) return false;
-            n++;
-        }
-        if (!camera_project(camera, &ground, pose_apply(camera_from_world, proving_parked_m[i]), err)) return false;
-        if (ground.x < 0 || ground.x > camera->width_px || ground.y < 0 || ground.y > camera->height_px) continue;
-        put_outline(f, "parked car", hull, hull_of(hull, q, n), ground);
-    }
-    return true;
-}
-
-/* The lamp post as its user would draw it: both sides from the ground up, and where it stands. */
-static bool put_post(FILE *f, const struct proving_case *c, const struct camera *camera, struct error *err)
-{
-    enum { STEPS = 12 };
-    struct pose camera_from_world = pose_inverse(proving_shot_pose(&c->shots[0]));
-    struct vec3 foot = proving_post_m, away = vec3_sub(foot, c->shots[0].eye_m);
-    struct vec3 aside = vec3_scale(vec3_unit(vec3(away.y, -away.x, 0)), PROVING_POST_RADIUS_M);
-    struct vec2 q[2 * STEPS], ground;
-    for (int i = 0; i < 2 * STEPS; i++) {
-        int step = i < STEPS ? i : 2 * STEPS - 1 - i;
-        struct vec3 p = vec3(foot.x, foot.y, foot.z + step * (PROVING_POST_HEIGHT_M - foot.z) / (STEPS - 1));
-        p = i < STEPS ? vec3_add(p, aside) : vec3_sub(p, aside);
-        if (!camera_project(camera, &q[i], pose_apply(camera_from_world, p), err)) return false;
-    }
-    foot.z = 0;
-    if (!camera_project(camera, &ground, pose_apply(camera_from_world, foot), err)) return false;
-    put_outline(f, "lamp post", q, 2 * STEPS, ground);
-    return true;
 }
 
 /* The street's middle, where the tool lays a smooth road over the reconstruction. */
@@ -122,20 +55,20 @@ static bool put_photographs(FILE *f, const struct proving_case *c, const struct 
         put_pose(f, &c->shots[0]);
         fprintf(f, "\nground: {height_m: 0, albedo: %g}\n" SKYLINE, PROVING_ALBEDO);
         put_exposure(f, c, camera, variant);
-        fputs("occluders:\n", f);
-        return put_post(f, c, camera, err) && put_parked(f, c, camera, err);
+        return write_outlines(f, c, camera, err);
     }
-    fputs("cameras:\n  drone: ", f);
+    const char *name = c->flies ? "drone" : "fixed";
+    fprintf(f, "cameras:\n  %s: ", name);
     put_camera(f, camera);
     fputs("}\nshots:\n", f);
     for (size_t i = 0; i < c->shot_count; i++) {
-        fprintf(f, "  - {photograph: photograph-%zu.jpg, camera: drone, time: %s, ", i, c->time);
+        fprintf(f, "  - {photograph: photograph-%zu.jpg, camera: %s, time: %s, ", i, name, c->time);
         put_pose(f, &c->shots[i]);
         fputs("\n", f);
     }
     fprintf(f, "static: {mesh: place.ply}\nground: {albedo: %g}\n" ROAD, PROVING_ALBEDO);
     put_exposure(f, c, camera, variant);
-    return true;
+    return write_outlines(f, c, camera, err);
 }
 
 static void put_cast(FILE *f, const struct proving_case *c, const char *models)
