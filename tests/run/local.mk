@@ -45,3 +45,8 @@ tests_proving_compare_picture_test_SOURCES = tests/proving/compare_picture.c tes
   scenes/proving-ground/compare_picture.c scenes/proving-ground/compare_picture.h
 nodist_EXTRA_tests_proving_compare_picture_test_SOURCES = dummy.cxx
 tests_proving_compare_picture_test_LDADD = $(LIB_LIBS)
+check_PROGRAMS += tests/proving/place_mesh.test
+tests_proving_place_mesh_test_SOURCES = tests/proving/place_mesh.c tests/tap.h \
+  scenes/proving-ground/place_mesh.c scenes/proving-ground/place_mesh.h
+nodist_EXTRA_tests_proving_place_mesh_test_SOURCES = dummy.cxx
+tests_proving_place_mesh_test_LDADD = $(LIB_LIBS)
