@@ -17,10 +17,10 @@ struct pass_settings pass_settings(enum quality quality)
     const char *outlines = "+A0.3 +AM2 +R3 -J", *fine_outlines = "+A0.1 +AM2 +R3 -J";
     const char *edges = "+A0.03 +AM2 +R1 -J", *fine_edges = "+A0.03 +AM2 +R2 -J", *none = "-A";
     switch (quality) {
-    case QUALITY_DRAFT: return (struct pass_settings){ 48, 4, 30, 0.9, 1, none, none };
-    case QUALITY_HIGH: return (struct pass_settings){ 512, 1, 200, 0.4, 2, fine_outlines, fine_edges };
+    case QUALITY_DRAFT: return (struct pass_settings){ 48, 4, 30, 0.5, 1, none, none };
+    case QUALITY_HIGH: return (struct pass_settings){ 512, 1, 200, 0.2, 2, fine_outlines, fine_edges };
     case QUALITY_STANDARD:
-    default: return (struct pass_settings){ 128, 2, 40, 0.8, 1.5, outlines, edges };
+    default: return (struct pass_settings){ 128, 2, 50, 0.25, 1.5, outlines, edges };
     }
 }
 
