@@ -12,11 +12,11 @@
 struct place_files { char place[64], shades[64]; };
 
 /* The parts of the static mesh that the entities that matter need, and a plane below them.
- * Out: ground (unlit), around: what can be in the way of its light; the caller's */
-static bool write_place(struct place_files *files, struct shaded_ground *ground, struct static_cut *around, struct plane *below,
-                        const struct frame *f, struct error *err)
+ * Out: ground (unlit), around: what can be in the way of its light, shades: of the sun's; the caller's, after a failure, too */
+static bool write_place(struct place_files *files, struct shaded_ground *ground, struct static_cut *around, struct static_cut *shades,
+                        struct plane *below, const struct frame *f, struct error *err)
 {
-    struct static_cut receivers = { 0 }, shades = { 0 }, rest = { 0 };
+    struct static_cut receivers = { 0 }, rest = { 0 };
     struct prism *near = calloc(f->around.n + 1, sizeof *near), *above = calloc(f->around.shade_count + 1, sizeof *above);
     const struct light *light = f->context->light;
     size_t near_count = 0, above_count = 0, per_entity = f->around.n ? f->around.shade_count / f->around.n : 0;
@@ -28,25 +28,33 @@ static bool write_place(struct place_files *files, struct shaded_ground *ground,
     }
     ok = ok && static_mesh_cut(f->stage->mesh, &receivers, near, near_count, err) &&
          static_mesh_cut(f->stage->mesh, around, above, above_count, err) &&
-         shading_part(&shades, &rest, around, &receivers, &light->sun_direction, light->has_sun, err) &&
+         shading_part(shades, &rest, around, &receivers, &light->sun_direction, light->has_sun, err) &&
          shaded_ground_of_cut(ground, &receivers, err);
     snprintf(files->place, sizeof files->place, "frames/%s/place.inc", f->name);
-    snprintf(files->shades, sizeof files->shades, "frames/%s/shades.inc", f->name);
-    char *place = string_format("%s/place.inc", f->folder), *shade = string_format("%s/shades.inc", f->folder);
-    ok = ok && ((place && shade) || error_set(err, ERR_MEMORY, "no memory for a path")) &&
-         place_include_write(place, &receivers, &rest, err) && shades_include_write(shade, &shades, err);
+    char *place = string_format("%s/place.inc", f->folder);
+    ok = ok && (place || error_set(err, ERR_MEMORY, "no memory for a path")) && place_include_write(place, &receivers, &rest, err);
     double lowest = INFINITY;
     for (size_t i = 0; i < f->moment.n; i++)
         if (f->matters[i]) lowest = fmin(lowest, f->moment.entities[i].world_from_entity.translation.z);
     for (size_t i = 0; i < receivers.vertices; i++) lowest = fmin(lowest, (double)receivers.position_m[i][2]);
     *below = (struct plane){ vec3(0, 0, 1), lowest - 0.5 };
     static_cut_release(&receivers);
-    static_cut_release(&shades);
     static_cut_release(&rest);
     free(place);
-    free(shade);
     free(near);
     free(above);
+    return ok;
+}
+
+/* Once it is known where the photograph tells of the shade. */
+static bool write_shades(struct place_files *files, struct static_cut *shades, const struct frame *f, const struct sun_share *share, struct error *err)
+{
+    size_t told[TOLD_KINDS];
+    snprintf(files->shades, sizeof files->shades, "frames/%s/shades.inc", f->name);
+    char *path = string_format("%s/shades.inc", f->folder);
+    bool ok = (path || error_set(err, ERR_MEMORY, "no memory for a path")) &&
+              sun_share_part(told, share, shades, f->context->light->sun_direction, err) && shades_include_write(path, shades, told, err);
+    free(path);
     return ok;
 }
 
@@ -76,7 +84,7 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
     struct pass_surroundings surroundings = { .sky_map = "" };
     struct place_files files;
     struct shaded_ground ground = { 0 };
-    struct static_cut around = { 0 };
+    struct static_cut around = { 0 }, shades = { 0 };
     struct sky_sight *sight = NULL;
     bool ok = (entities && receivers && includes) || error_set(err, ERR_MEMORY, "no memory for a frame");
     for (size_t i = 0; ok && i < f->moment.n; i++) {
@@ -97,14 +105,15 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
         .surroundings = &surroundings,
     };
     ok = ok &&
-         (f->stage->mesh ? write_place(&files, &ground, &around, &passes.ground, f, err)
+         (f->stage->mesh ? write_place(&files, &ground, &around, &shades, &passes.ground, f, err)
                          : shaded_ground_of_plane(&ground, &f->scene->ground, receivers, n, err)) &&
          open_sight(&sight, &around, f, err) && frame_write_surroundings(&surroundings, f, sight, err) &&
-         light_ground(&ground, sight, f, err) && passes_write(f->folder, &passes, err);
+         (!f->stage->mesh || write_shades(&files, &shades, f, &surroundings.sun_share, err)) && light_ground(&ground, sight, f, err) && passes_write(f->folder, &passes, err);
     frame_release_surroundings(&surroundings);
     sky_sight_destroy(sight);
     shaded_ground_release(&ground);
     static_cut_release(&around);
+    static_cut_release(&shades);
     free(entities);
     free(receivers);
     free(includes);

@@ -18,6 +18,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#define LOWEST_SUN 0.05 /* its rays' slope, for a map along them */
 #define ROOM 1.2   /* the circle is so many times as far from the camera as what is within it */
 #define BODY_M 1.0 /* height over the ground at which entities look round */
 
@@ -49,6 +50,7 @@ static struct seen seen_of(const struct frame *f, const struct image *unhidden)
 }
 
 #define SUN_SHARE_FILE "sun-share.png"
+#define SUN_THROUGH_FILE "sun-through.png"
 
 /* Out: path (SURROUNDINGS_PATH_SIZE) relative to the output folder */
 static bool write_image(char *path, const struct frame *f, const char *name, const struct image *image, struct error *err)
@@ -60,26 +62,45 @@ static bool write_image(char *path, const struct frame *f, const char *name, con
     return ok;
 }
 
-/* What of the sun reaches the ground where entities and their shadows are: on a plane the photograph tells. */
-static bool write_sun_share(struct pass_surroundings *out, struct frame *f, const struct seen *seen, struct error *err)
+static bool remove_earlier(const struct frame *f, const char *name, struct error *err)
 {
-    char *earlier = string_format("%s/" SUN_SHARE_FILE, f->folder);
+    char *earlier = string_format("%s/%s", f->folder, name);
     if (!earlier) return error_set(err, ERR_MEMORY, "no memory for a path");
     unlink(earlier);
     free(earlier);
-    if (f->scene->shade == SHADE_NONE || f->stage->mesh || !f->photograph[0] || !f->context->light->has_sun) return true;
+    return true;
+}
+
+/* What of the sun reaches the ground where entities and their shadows are, as far as the photograph tells. */
+static bool write_sun_share(struct pass_surroundings *out, struct frame *f, const struct seen *seen, struct error *err)
+{
+    const struct light *light = f->context->light;
+    const struct static_mesh *mesh = f->stage->mesh;
+    if (!remove_earlier(f, SUN_SHARE_FILE, err) || !remove_earlier(f, SUN_THROUGH_FILE, err)) return false;
+    if (f->scene->shade == SHADE_NONE || !f->photograph[0] || !light->has_sun || (mesh && light->sun_direction.z < LOWEST_SUN)) return true;
     struct ground_shade shade = { 0 };
+    struct plane level = { vec3(0, 0, 1), INFINITY };
     struct receiver *receivers = calloc(f->moment.n + 1, sizeof *receivers); /* borrowed */
     if (!receivers) return error_set(err, ERR_MEMORY, "no memory for a frame");
-    struct sun_share_input in = { .shade = &shade, .seen = seen, .ground = &f->scene->ground, .receivers = receivers };
-    for (size_t i = 0; i < f->moment.n; i++)
-        if (f->matters[i]) receivers[in.n++] = f->receivers[i];
-    bool ok = ground_shade_find(&shade, f->stage, &f->picture, seen->unhidden, f->shot, f->context->light, err) &&
+    struct sun_share_input in = { .shade = &shade, .seen = seen, .ground = mesh ? &level : &f->scene->ground, .receivers = receivers,
+                                  .place = mesh, .place_depth = &f->labels.place_depth, .towards_sun = light->sun_direction };
+    double top = -INFINITY;
+    for (size_t i = 0; i < f->moment.n; i++) {
+        double foot = f->moment.entities[i].world_from_entity.translation.z, height = f->moment.entities[i].model->max_m.z;
+        if (!f->matters[i]) continue;
+        receivers[in.n++] = f->receivers[i];
+        in.height_m = fmax(in.height_m, height);
+        level.offset_m = fmin(level.offset_m, floor(foot)); /* not with every step of theirs another */
+        top = fmax(top, foot + height);
+    }
+    in.top_m = top - level.offset_m;
+    bool ok = ground_shade_find(&shade, f->stage, &f->picture, seen->unhidden, f->shot, light, err) &&
               sun_share_create(&out->sun_share, &in, err);
     f->shaded = shade.share;
     ground_shade_release(&shade);
     free(receivers);
-    return ok && (!out->sun_share.map.data || write_image(out->sun_share_map, f, SUN_SHARE_FILE, &out->sun_share.map, err));
+    return ok && (!out->sun_share.map.data || write_image(out->sun_share_map, f, SUN_SHARE_FILE, &out->sun_share.map, err)) &&
+           (!out->sun_share.through.data || write_image(out->sun_through_map, f, SUN_THROUGH_FILE, &out->sun_share.through, err));
 }
 
 static bool write_ground(struct pass_surroundings *out, double color_gain[3], const struct frame *f, const struct seen *seen,
@@ -94,7 +115,7 @@ static bool write_ground(struct pass_surroundings *out, double color_gain[3], co
     }
     struct orthophoto_input in = {
         .seen = seen, .light = f->context->light, .ground = f->stage->mesh ? NULL : &f->scene->ground,
-        .sun = &out->sun_share, .ground_reflection = f->scene->ground_reflection, .place = f->stage->mesh, .place_depth = &f->labels.place_depth,
+        .sun = f->stage->mesh ? NULL : &out->sun_share, .ground_reflection = f->scene->ground_reflection, .place = f->stage->mesh, .place_depth = &f->labels.place_depth,
         .entities = entities,
     };
     memcpy(in.ground_albedo, f->scene->ground_albedo, sizeof in.ground_albedo);

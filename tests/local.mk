@@ -58,7 +58,7 @@ nodist_EXTRA_tests_gen_ground_test_SOURCES = dummy.cxx
 tests_gen_ground_test_LDADD = $(GEN_LIBS)
 
 check_PROGRAMS += tests/gen/ground_shade.test
-tests_gen_ground_shade_test_SOURCES = %D%/gen/ground_shade.c %D%/gen/craig.h %D%/gen/street.h %D%/gen/view_above.h %D%/tap.h
+tests_gen_ground_shade_test_SOURCES = %D%/gen/ground_shade.c %D%/gen/craig.h %D%/gen/place.h %D%/gen/street.h %D%/gen/view_above.h %D%/tap.h
 nodist_EXTRA_tests_gen_ground_shade_test_SOURCES = dummy.cxx
 tests_gen_ground_shade_test_LDADD = $(GEN_LIBS)
 

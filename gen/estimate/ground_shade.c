@@ -33,6 +33,10 @@
 #define SUN_BESIDE_MIN 0.35
 #define SUN_ROUND_MIN 0.25
 #define COARSEST_M 1.0
+/* Or a mesh casts so much of it; its own surface, which is rough, casts none. */
+#define CAST_MIN 0.5
+#define OFF_MESH_M 0.3
+#define SUN_FAR_M 1000
 enum { PIECE_MIN = 24, BESIDE_PX = 8, BORDER_MIN = 12, REACH_PX = 3, RIM_PX = 4 };
 
 /* --- one colour --- */
@@ -98,6 +102,7 @@ static void drop_shaded_surfaces(struct ground_shade *g)
 struct piece_search {
     const struct ground_shade *shade;
     const struct looked_at *look;
+    struct vec3 towards_sun;
     int width, height;
     float *sun;            /* (height,width) share of it; NAN: none of the surfaces; INFINITY: no ground in view */
     int32_t *member;       /* (height,width) 0: of no piece yet */
@@ -185,13 +190,26 @@ static bool is_shade(const struct piece_search *s, size_t n, int32_t piece)
     return border >= BORDER_MIN && sun >= SUN_BESIDE_MIN * border && sun >= SUN_ROUND_MIN * (border + (double)count[SHADE_BESIDE]);
 }
 
+/* A mesh keeps the sun from it. In: the piece's pixels in the queue */
+static bool is_cast(const struct piece_search *s, size_t n)
+{
+    const struct static_mesh *mesh = s->look->stage->mesh;
+    size_t cast = 0;
+    for (size_t i = 0; mesh && i < n; i++) {
+        struct vec3 p;
+        cast += ground_view_at(&p, &s->look->view, s->queue[i] % s->width, s->queue[i] / s->width) &&
+                static_mesh_blocks(mesh, p, s->towards_sun, OFF_MESH_M, SUN_FAR_M);
+    }
+    return (double)cast > CAST_MIN * (double)n;
+}
+
 static void find_pieces(const struct piece_search *s)
 {
     int32_t piece = 0;
     for (int32_t i = 0; i < s->width * s->height; i++) {
         if (s->member[i] || !(s->sun[i] < (float)SHADE_MAX)) continue;
         size_t n = flood(s, i, ++piece);
-        if (n >= PIECE_MIN && is_shade(s, n, piece)) keep_wide(s, n, piece);
+        if (n >= PIECE_MIN && (is_shade(s, n, piece) || is_cast(s, n))) keep_wide(s, n, piece);
     }
 }
 
@@ -230,6 +248,13 @@ static bool is_rim(const struct piece_search *s, int x, int y)
     return is_outside(s, x - RIM_PX, y - RIM_PX) || is_outside(s, x + RIM_PX, y + RIM_PX);
 }
 
+/* Of a plane all is lit that is not shaded for sure; a mesh knows better than what is not lit for sure. */
+static bool is_unknown(const struct piece_search *s, int x, int y)
+{
+    float sun = s->sun[y * s->width + x];
+    return s->look->stage->mesh ? !(isfinite(sun) && sun > (float)SUN_MIN) : isnan(sun) || (isinf(sun) && is_rim(s, x, y));
+}
+
 /* Shade, and what is round it. */
 static void mark(struct ground_shade *g, const struct piece_search *s)
 {
@@ -244,7 +269,7 @@ static void mark(struct ground_shade *g, const struct piece_search *s)
     for (int y = 0; y < s->height; y++)
         for (int x = 0; x < s->width; x++) {
             int i = y * s->width + x;
-            if ((isnan(s->sun[i]) || (isinf(s->sun[i]) && is_rim(s, x, y))) && g->where[i] == GROUND_LIT) g->where[i] = GROUND_UNKNOWN;
+            if (g->where[i] == GROUND_LIT && is_unknown(s, x, y)) g->where[i] = GROUND_UNKNOWN;
         }
 }
 
@@ -266,10 +291,11 @@ static size_t read_all(const struct piece_search *s, const struct image *unhidde
     return ground;
 }
 
-static bool find_shaded(struct ground_shade *g, const struct looked_at *l, const struct image *unhidden, struct error *err)
+static bool find_shaded(struct ground_shade *g, const struct looked_at *l, const struct image *unhidden, struct vec3 towards_sun,
+                        struct error *err)
 {
     size_t n = (size_t)g->width_px * (size_t)g->height_px, shaded = 0;
-    struct piece_search s = { .shade = g, .look = l, .width = g->width_px, .height = g->height_px,
+    struct piece_search s = { .shade = g, .look = l, .towards_sun = towards_sun, .width = g->width_px, .height = g->height_px,
                               .sun = malloc(n * sizeof *s.sun + 1), .member = calloc(n + 1, sizeof *s.member),
                               .queue = malloc(n * sizeof *s.queue + 1), .wide = calloc(n + 1, 1) };
     g->where = calloc(n + 1, 1);
@@ -314,7 +340,7 @@ bool ground_shade_find(struct ground_shade *shade, const struct stage *stage, co
         memcpy(out.lit, l.lit, sizeof out.lit);
         set_light(&out, &e.shade);
         drop_shaded_surfaces(&out);
-        ok = look_farther(&l, err) && find_shaded(&out, &l, unhidden, err);
+        ok = look_farther(&l, err) && find_shaded(&out, &l, unhidden, light->sun_direction, err);
     }
     gathered_release(&g);
     looked_at_release(&l);

@@ -31,8 +31,9 @@ struct ground_shade {
 
 /* Shade is what has the colour of one of the commonest surfaces in the light that the photograph's shadows have, in
  * one piece, deep in its middle, and with that surface in the sun beside it. What could be something else counts as lit; and so does everything
- * where the photograph, looked at as estimate.h does, shows no sun or other shadows than the light makes.
- * In:  photograph (U8) of a shot over a plane; unhidden (U8, 1 channel, unhidden.h) or NULL; light with a sun
+ * where the photograph, looked at as estimate.h does, shows no sun or other shadows than the light makes. Over a mesh, shade is also what the
+ * mesh casts the most of; and what is not known to be lit is not known.
+ * In:  photograph (U8) of a shot; unhidden (U8, 1 channel, unhidden.h) or NULL; light with a sun
  * Out: shade; free with ground_shade_release
  * Err: ERR_MEMORY */
 bool ground_shade_find(struct ground_shade *shade, const struct stage *stage, const struct image *photograph,

@@ -65,7 +65,8 @@ static void write_shade(struct sdl *sdl, const struct passes *p)
 {
     const struct pass_surroundings *around = p->surroundings;
     if (p->light->has_sun && around && around->sun_share.map.data)
-        shade_sdl(sdl, &around->sun_share, around->sun_share_map, &p->ground, p->light->sun_direction, p->entities, p->entity_count);
+        shade_sdl(sdl, &around->sun_share, around->sun_share_map, around->sun_through_map, p->light->sun_direction, p->entities, p->entity_count);
+    sdl_declare_number(sdl, "Shade_Is_Told", p->light->has_sun && around && around->sun_share.through.data);
 }
 
 static void write_entities(struct sdl *sdl, const struct passes *p, bool shapes_only)

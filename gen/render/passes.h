@@ -45,8 +45,8 @@ struct pass_surroundings {
     char relief_include[SURROUNDINGS_PATH_SIZE]; /* of relief_include_write: over a place what the mirrored map shows stands there; "": none */
     struct pass_standing *standing; /* (standing_count) */
     size_t standing_count;
-    struct sun_share sun_share;     /* of all passes, on a plane */
-    char sun_share_map[SURROUNDINGS_PATH_SIZE];
+    struct sun_share sun_share;     /* of all passes */
+    char sun_share_map[SURROUNDINGS_PATH_SIZE], sun_through_map[SURROUNDINGS_PATH_SIZE];
 };
 
 /* All that the three scenes of a frame say. */

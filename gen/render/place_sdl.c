@@ -94,12 +94,18 @@ bool place_include_write(const char *path, const struct static_cut *receivers, c
     return write_include(&sdl, path, err);
 }
 
-bool shades_include_write(const char *path, const struct static_cut *shades, struct error *err)
+bool shades_include_write(const char *path, const struct static_cut *shades, const size_t count[TOLD_KINDS], struct error *err)
 {
+    static const char *const names[TOLD_KINDS] = { "Shades", "Shades_In_Part", "Shades_Told" };
+    struct static_cut part = *shades;
     struct sdl sdl;
     sdl_init(&sdl);
     sdl_header(&sdl, "what of the place can keep the sun from the ground round the entities of a frame: metres, world");
-    write_cut(&sdl, "Shades", shades, NULL);
+    for (int i = 0; i < TOLD_KINDS; i++) {
+        part.triangles = count[i];
+        write_cut(&sdl, names[i], &part, NULL);
+        part.triangle += count[i];
+    }
     return write_include(&sdl, path, err);
 }
 

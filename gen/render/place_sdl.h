@@ -2,6 +2,7 @@
 #ifndef STAFFAGE_GEN_PLACE_SDL_H
 #define STAFFAGE_GEN_PLACE_SDL_H
 
+#include "gen/estimate/sun_share.h"
 #include "gen/light/relief.h"
 #include "gen/world/static_mesh.h"
 #include "lib/error.h"
@@ -14,8 +15,8 @@
 bool place_include_write(const char *path, const struct static_cut *receivers, const struct static_cut *rest,
                          struct error *err);
 
-/* Declares Shades: what of the place shades the receivers. */
-bool shades_include_write(const char *path, const struct static_cut *shades, struct error *err);
+/* Declares Shades, Shades_In_Part and Shades_Told: what of the place shades the receivers, as sun_share_part sorts it. */
+bool shades_include_write(const char *path, const struct static_cut *shades, const size_t count[TOLD_KINDS], struct error *err);
 
 /* Declares Relief, the place as mirrors meet it, and Relief_Ground, its ground that has an orthophoto. */
 bool relief_include_write(const char *path, const struct relief *relief, struct error *err);

@@ -1,5 +1,7 @@
 #include "gen/render/shade_sdl.h"
 
+#include "gen/render/mesh_sdl.h"
+
 #include <math.h>
 
 enum { TILE = 8 }; /* texels along the side of a tile */
@@ -48,6 +50,10 @@ static void write_sheet(struct sdl *sdl, const struct image *map)
     for (int row = 0; row < rows; row++)
         for (int column = 0; next_run(&from, &to, map, column, row); column = to) count++;
     sdl_declare(sdl, "Sun_Share_Sheet");
+    if (!count) {
+        mesh_sdl_nowhere(sdl);
+        return;
+    }
     sdl_begin(sdl, "mesh2");
     sdl_begin(sdl, "vertex_vectors");
     sdl_number(sdl, 4 * count);
@@ -71,9 +77,10 @@ static void write_sheet(struct sdl *sdl, const struct image *map)
     sdl_end(sdl);
 }
 
-void shade_sdl(struct sdl *sdl, const struct sun_share *share, const char *map, const struct plane *ground, struct vec3 sun,
+void shade_sdl(struct sdl *sdl, const struct sun_share *share, const char *map, const char *through, struct vec3 sun,
                const struct entity *entities, size_t n)
 {
+    const struct plane *ground = &share->ground;
     struct vec2 low = share->low_m, high = share->high_m;
     double along = (height_of(entities, n, ground) + ABOVE_M) / vec3_dot(ground->normal, sun);
     struct vec3 corner = vec3(low.x, low.y, plane_height(ground, low.x, low.y));
@@ -82,5 +89,6 @@ void shade_sdl(struct sdl *sdl, const struct sun_share *share, const char *map, 
     sdl_declare_vector(sdl, "Sun_Share_East", vec3_sub(vec3(high.x, low.y, plane_height(ground, high.x, low.y)), corner));
     sdl_declare_vector(sdl, "Sun_Share_North", vec3_sub(vec3(low.x, high.y, plane_height(ground, low.x, high.y)), corner));
     write_sheet(sdl, &share->map);
+    if (through[0]) sdl_declare_string(sdl, "Sun_Through", through);
     sdl_include(sdl, "shade.inc");
 }

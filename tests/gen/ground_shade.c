@@ -3,6 +3,7 @@
 #include "gen/estimate/sun_share.h"
 
 #include "tests/gen/craig.h"
+#include "tests/gen/place.h"
 #include "tests/gen/street.h"
 #include "tests/gen/view_above.h"
 #include "tests/tap.h"
@@ -27,10 +28,10 @@ static bool light_of(struct light *light, struct scene *scene, const double rati
 }
 
 /* Is it the same some way round a point? */
-static bool is_same_around(struct vec3 p, double way_m)
+static bool is_even(bool (*shade)(struct vec3 p), struct vec3 p, double way_m)
 {
     for (int i = 0; i < 16; i++)
-        if (street_shade(vec3(p.x + way_m * cos(i * M_PI / 8), p.y + way_m * sin(i * M_PI / 8), 0)) != street_shade(p)) return false;
+        if (shade(vec3(p.x + way_m * cos(i * M_PI / 8), p.y + way_m * sin(i * M_PI / 8), 0)) != shade(p)) return false;
     return true;
 }
 
@@ -80,7 +81,7 @@ static void test_street(void)
             struct vec3 p = vec3(x, y, 0);
             bool shaded = street_shade(p);
             double sun = sun_share_at(&share, (struct vec2){ x, y });
-            if (!is_same_around(p, 0.25)) continue;
+            if (!is_even(street_shade, p, 0.25)) continue;
             add(shaded ? &dark : &lit, shaded ? sun < 0.15 : sun > 0.9);
             if (shaded && is_paint(p)) add(&paint, sun < 0.15);
             if (shaded && fabs(y - 15) < 0.25) add(&line, sun < 0.15);
@@ -186,9 +187,148 @@ static void test_craig(void)
     scene_destroy(scene);
 }
 
+/* --- over a mesh --- */
+
+static const struct vec3 mesh_sun = { 0.6, 0, 0.8 };
+static bool is_in(struct vec3 p, double x0, double x1, double y0, double y1) { return p.x > x0 && p.x < x1 && p.y > y0 && p.y < y1; }
+
+/* A tree's shade, a lamp post's, and that of a wall 1 m high. */
+static bool wall_shade(struct vec3 p) { return is_in(p, -0.75, 0, 11, 14); }
+static bool seen_shade(struct vec3 p) { return is_in(p, 5, 8, 17, 23) || is_in(p, -3.6, -2.8, 11, 29) || wall_shade(p); }
+
+/* A roof 6 m up that casts a rectangle. */
+static void add_roof(struct place *place, double x0, double x1, double y0, double y1)
+{
+    double z = 6, along = z * mesh_sun.x / mesh_sun.z;
+    place_quad(place, (const double[4][3]){ { x0 + along, y0, z }, { x1 + along, y0, z }, { x1 + along, y1, z }, { x0 + along, y1, z } }, 0);
+}
+
+/* It casts the tree's shade 0.4 m farther east, another where the sun shines, the wall's, and none of a post. */
+static bool make_mesh(struct static_mesh **mesh)
+{
+    struct error err = ERROR_NONE;
+    struct place place = { 0 };
+    place_ground(&place, 0, 0);
+    add_roof(&place, 5.4, 8.4, 17, 23);
+    add_roof(&place, -2, 1, 26, 29);
+    place_quad(&place, (const double[4][3]){ { 0, 11, 0 }, { 0, 14, 0 }, { 0, 14, 1 }, { 0, 11, 1 } }, 0);
+    bool ok = place_mesh(mesh, &place, false, &err);
+    place_free(&place);
+    return OK(ok, "a mesh %s", err.text);
+}
+
+/* z of the mesh, something before it over a rectangle of the ground. */
+static bool make_depth(struct image *depth, const struct static_mesh *mesh)
+{
+    struct error err = ERROR_NONE;
+    if (!image_init(depth, STREET_WIDTH, STREET_HEIGHT, 1, PIXEL_F32, &err)) return false;
+    for (int y = 0; y < STREET_HEIGHT; y++)
+        for (int x = 0; x < STREET_WIDTH; x++) {
+            struct static_hit hit;
+            struct vec3 p = ground_at(x, y), eye = above().translation, way = vec3_unit(vec3_sub(p, eye));
+            static_mesh_hits(mesh, &hit, eye, &way, 1);
+            *image_f32(depth, x, y) = is_in(p, 7, 10, 18, 22) ? 15 : (float)(hit.range_m * -way.z);
+        }
+    return true;
+}
+
+static double through_at(const struct sun_share *share, struct vec3 p)
+{
+    const struct sun_share through = { .map = share->through, .low_m = share->low_m, .high_m = share->high_m };
+    bool inside = is_in(p, share->low_m.x, share->high_m.x, share->low_m.y, share->high_m.y);
+    return inside && share->through.data ? sun_share_at(&through, (struct vec2){ p.x, p.y }) : 0;
+}
+
+/* What of the sun reaches the ground past the mesh and the map. */
+static double sun_past(const struct sun_share *share, const struct static_mesh *mesh, struct vec3 p)
+{
+    double past = static_mesh_blocks(mesh, p, mesh_sun, 0.05, 1000) ? through_at(share, p) : 1;
+    return past * sun_share_at(share, (struct vec2){ p.x, p.y });
+}
+
+static void check_past(const struct sun_share *share, const struct static_mesh *mesh)
+{
+    struct count lit = { 0 }, dark = { 0 }, wall = { 0 }, behind = { 0 };
+    size_t moved = 0;
+    for (double y = 10.3; y < 29.9; y += 0.1)
+        for (double x = -9.9; x < 12.7; x += 0.1) {
+            struct vec3 p = vec3(x, y, 0);
+            double sun = sun_past(share, mesh, p);
+            bool shaded = seen_shade(p), cast = static_mesh_blocks(mesh, p, mesh_sun, 0.05, 1000);
+            if (is_in(p, 8.1, 8.3, 19, 21) || is_in(p, 8.5, 9, 19, 21)) add(&behind, cast ? sun < 0.05 : sun > 0.95);
+            if (is_in(p, 7, 10, 18, 22) || !is_even(seen_shade, p, 0.25)) continue;
+            moved += shaded != cast;
+            add(shaded ? &dark : &lit, shaded ? sun < 0.15 : sun > 0.9);
+            if (wall_shade(p)) add(&wall, sun_share_at(share, (struct vec2){ x, y }) > 0.99 && sun < 0.05);
+        }
+    OK(moved > 1000, "the mesh is wrong at %zu points", moved);
+    OK(part(lit) > 0.995, "what is in the sun is lit, whatever the mesh says: %.4f of it", part(lit));
+    OK(part(dark) > 0.97, "what is not is shaded: %.4f", part(dark));
+    OK(wall.all > 20 && part(wall) > 0.9, "a wall that is lower than the entities casts its shade itself: %.4f", part(wall));
+    OK(behind.all > 100 && part(behind) > 0.99, "where the photograph shows something else the mesh's shade stays: %.4f", part(behind));
+}
+
+/* The first roof casts where the photograph does not tell, too. */
+static void check_part(const struct sun_share *share, const struct static_mesh *mesh)
+{
+    static const struct vec2 corner[] = { { -20, 0 }, { 20, 0 }, { 20, 40 }, { -20, 40 } };
+    const struct prism all = { .corner_m = corner, .corners = 4, .axis = { 0, 0, 1 }, .below_m = -1, .above_m = 10 };
+    struct error err = ERROR_NONE;
+    struct static_cut cut;
+    if (!OK(static_mesh_cut(mesh, &cut, &all, 1, &err), "a cut %s", err.text)) return;
+    size_t count[TOLD_KINDS], roofs = 0, told = 0;
+    if (!OK(sun_share_part(count, share, &cut, mesh_sun, &err), "parts %s", err.text)) return;
+    for (size_t i = 0; i < cut.triangles; i++) {
+        const float *p = cut.position_m[cut.triangle[i][0]];
+        bool other_roof = p[2] > 5 && p[1] > 25;
+        roofs += other_roof;
+        told += other_roof && i >= cut.triangles - count[TOLD];
+    }
+    OK(roofs == 2 && told == 2 && count[TOLD] == 2 && count[TOLD_IN_PART] > 2, "of the mesh the roof casts no more that shades what the photograph shows in the sun");
+    static_cut_release(&cut);
+}
+
+static void test_mesh(void)
+{
+    struct scene_camera camera;
+    struct scene_shot shot;
+    static char name[] = "street.png";
+    struct scene scene = scene_of(&camera, &shot, name);
+    struct made m = { .ratio = { 0.15, 0.2, 0.3 }, .balance = { 1.1, 1, 0.8 }, .shade = seen_shade };
+    struct error err = ERROR_NONE;
+    struct static_mesh *mesh = NULL;
+    struct image image, depth;
+    struct light light;
+    struct ground_shade shade;
+    struct sun_share share;
+    struct vec3 corner[] = { { -10, 10, 0 }, { 13, 10, 0 }, { 13, 30, 0 }, { -10, 30, 0 } };
+    struct receiver receiver = { .corner_m = corner, .corners = 4 };
+    scene.sun_azimuth_rad = 90 * DEG;
+    scene.sun_elevation_rad = asin(mesh_sun.z);
+    make_image(&image, &m);
+    if (!make_mesh(&mesh) || !make_depth(&depth, mesh) || !light_of(&light, &scene, m.ratio)) return;
+    struct stage stage = stage_of(&scene);
+    stage.mesh = mesh;
+    struct seen seen = { .picture = &image, .camera = &lens, .world_from_camera = above(), .k = { 2, 3, 4 } };
+    seen_init(&seen);
+    struct sun_share_input in = { .shade = &shade, .seen = &seen, .ground = &scene.ground, .receivers = &receiver, .n = 1, .place = mesh,
+                                  .place_depth = &depth, .towards_sun = mesh_sun, .height_m = 1.5, .top_m = 1.5 };
+    if (OK(ground_shade_find(&shade, &stage, &image, NULL, &scene.shots[0], &light, &err) && sun_share_create(&share, &in, &err), "over a mesh %s", err.text)) {
+        check_past(&share, mesh);
+        check_part(&share, mesh);
+        sun_share_release(&share);
+        ground_shade_release(&shade);
+    }
+    light_release(&light);
+    image_release(&image);
+    image_release(&depth);
+    static_mesh_destroy(mesh);
+}
+
 int main(void)
 {
     test_street();
+    test_mesh();
     test_no_shade();
     test_craig();
     return tap_done();

@@ -1,4 +1,5 @@
-/* A box half in the shade of a wall, as POV-Ray renders it: with a map of the wall's shade on the ground, against the wall itself. */
+/* A box half in the shade of a wall, as POV-Ray renders it: with a map of the wall's shade on the ground, against the wall itself; and with the
+ * map in a place that has something above the wall where nothing is. */
 #include "gen/render/passes.h"
 #include "tests/gen/povray.h"
 #include "tests/gen/shade.h"
@@ -6,7 +7,8 @@
 #include "tests/gen/view_above.h"
 #include "tests/tap.h"
 
-enum { WIDTH = 160, HEIGHT = 120, TEXELS = 400 };
+enum { WIDTH = 160, HEIGHT = 120, TEXELS = 400, PASSES = 3 };
+static const char *const pass_names[PASSES] = { "object", "plane", "shadow" };
 #define TEXEL_M 0.05
 #define WALL_M 6.0     /* from the box, towards the sun */
 #define SUN_SLOPE 0.9
@@ -24,6 +26,7 @@ static bool draw_map(struct sun_share *share)
 {
     struct error err = ERROR_NONE;
     double end_x = -LINE_M / SUN_SLOPE;
+    share->ground = scene.ground;
     if (!image_init(&share->map, TEXELS, TEXELS, 1, PIXEL_U8, &err)) return false;
     share->low_m = (struct vec2){ -TEXELS * TEXEL_M / 2, -TEXELS * TEXEL_M / 2 };
     share->high_m = (struct vec2){ TEXELS * TEXEL_M / 2, TEXELS * TEXEL_M / 2 };
@@ -75,17 +78,56 @@ static double distance(const struct image *a, const struct image *truth, const s
     return sum / fmax(1, (double)*n);
 }
 
-static void test_pass(const char *pass, const char *wall, double within)
+static bool test_pass(struct image *truth, struct image *open, const char *pass, const char *wall)
 {
-    struct image with, truth, open;
+    struct image with;
     size_t n;
-    if (!render(&with, pass, NULL) || !render(&truth, pass, wall) || !render(&open, pass, "")) return;
-    double off = distance(&with, &truth, &open, &n), unshaded = distance(&open, &truth, &open, &n);
+    if (!render(&with, pass, NULL) || !render(truth, pass, wall) || !render(open, pass, "")) return false;
+    double off = distance(&with, truth, open, &n), unshaded = distance(open, truth, open, &n);
     OK(n > 300 && unshaded > 0.2, "%s pass: the wall shades %zu pixels, by %.3f", pass, n, unshaded);
-    OK(off < within, "and the map does as it: %.4f off", off);
+    OK(off < 0.02, "and the map does as it: %.4f off", off);
     image_release(&with);
-    image_release(&truth);
-    image_release(&open);
+    return true;
+}
+
+/* The shape of a wall. Returns the caller's text. */
+static char *wall_of(double half_width_m, double foot_m, double top_m)
+{
+    double x = WALL_M, y = half_width_m;
+    return string_format("polygon { 5, <%g, %g, %g>, <%g, %g, %g>, <%g, %g, %g>, <%g, %g, %g>, <%g, %g, %g> ", x, -y, foot_m, x, y, foot_m,
+                         x, y, top_m, x, -y, top_m, x, -y, foot_m);
+}
+
+/* Passes in a place that casts too much, with a map that says so everywhere, or nowhere. */
+static bool write_in_place(struct passes *p, struct pass_surroundings *around, const char *folder, const char *too_much, bool through)
+{
+    static const char place_text[] = "#declare Receivers = sphere { <0, 0, -1e6>, 1 } #declare Level = Receivers #declare Rest = Receivers";
+    struct error err = ERROR_NONE;
+    char *place = string_format("%s/place.inc", folder), *shades = string_format("%s/shades.inc", folder), *map = string_format("%s/sun-through.png", folder);
+    char *text = string_format("#declare Shades = sphere { <0, 0, -1e6>, 1 } #declare Shades_Told = Shades #declare Shades_In_Part = %s }", too_much);
+    image_release(&around->sun_share.through);
+    bool ok = image_init(&around->sun_share.through, TEXELS, TEXELS, 1, PIXEL_U8, &err);
+    for (int y = 1; ok && through && y < TEXELS - 1; y++) memset(image_u8(&around->sun_share.through, 1, y), 255, TEXELS - 2);
+    strcpy(around->sun_through_map, "frames/sun-through.png");
+    p->place_include = "frames/place.inc";
+    p->shades_include = "frames/shades.inc";
+    ok = ok && image_write(map, &around->sun_share.through, &err) && file_write(place, place_text, strlen(place_text), &err) &&
+         file_write(shades, text, strlen(text), &err) && passes_write(folder, p, &err);
+    free(place);
+    free(shades);
+    free(map);
+    free(text);
+    return OK(ok, "a place %s", err.text);
+}
+
+static void check_in_place(const char *pass, const struct image *truth, const struct image *open, const char *what)
+{
+    struct image with;
+    size_t n;
+    if (!render(&with, pass, NULL)) return;
+    double off = distance(&with, truth, open, &n);
+    OK(n > 300 && off < 0.02, "%s pass: %s: %.4f off", pass, what, off);
+    image_release(&with);
 }
 
 int main(void)
@@ -118,14 +160,26 @@ int main(void)
               model_include_write(&include, NULL, out, &entity, &err);
     p.surroundings = &around;
     double top = LINE_M + WALL_M * SUN_SLOPE;
-    char *wall = string_format("polygon { 5, <%g, -50, 0>, <%g, 50, 0>, <%g, 50, %g>, <%g, -50, %g>, <%g, -50, 0> pigment { rgb 0 } no_image "
-                               "no_reflection no_radiosity }", WALL_M, WALL_M, WALL_M, top, WALL_M, top, WALL_M);
-    if (OK(ok && passes_write(folder, &p, &err), "passes %s", err.text)) {
-        test_pass("object", wall, 0.02);
-        test_pass("plane", wall, 0.02);
-        test_pass("shadow", wall, 0.02);
+    static const char unseen[] = "pigment { rgb 0 } no_image no_reflection no_radiosity }";
+    char *shape = wall_of(50, 0, top), *above = wall_of(1.5, top - 1, top + 2);
+    char *wall = string_format("%s%s", shape, unseen), *both = string_format("%s%s%s", wall, above, unseen);
+    struct image truth[PASSES] = { 0 }, open[PASSES] = { 0 }, more = { 0 };
+    ok = OK(ok && passes_write(folder, &p, &err), "passes %s", err.text);
+    for (int i = 0; ok && i < PASSES; i++) ok = test_pass(&truth[i], &open[i], pass_names[i], wall);
+    ok = ok && render(&more, "plane", both);
+    if (ok && write_in_place(&p, &around, folder, above, true))
+        for (int i = 0; i < PASSES; i++) check_in_place(pass_names[i], &truth[i], &open[i], "where the map tells, what the place has casts nothing");
+    if (ok && write_in_place(&p, &around, folder, above, false))
+        check_in_place("plane", &more, &open[1], "where it does not, it does");
+    for (int i = 0; i < PASSES; i++) {
+        image_release(&truth[i]);
+        image_release(&open[i]);
     }
+    image_release(&more);
+    free(shape);
+    free(above);
     free(wall);
+    free(both);
     free(map);
     free(orthophoto);
     image_release(&even);
