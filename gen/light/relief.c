@@ -10,6 +10,8 @@
 /* A step of 1.4 degrees is half a metre at 20 m: mirrors on a car are no flatter than that. */
 enum { COLUMNS = 256, ABOVE = COLUMNS / 4, BELOW = ABOVE / 3, ROWS = ABOVE + BELOW };
 _Static_assert(3 * BELOW <= ABOVE, "as low as the panorama has a picture");
+#define CELL_M 0.5        /* of the ground's lattice */
+#define HEADROOM_M 1.0    /* over the ground: what hangs higher leaves it ground */
 #define GAP 1.5           /* farther apart than this, as a ratio of ranges, two neighbours are two things */
 
 static struct vec3 direction_of(int column, int row)
@@ -18,30 +20,41 @@ static struct vec3 direction_of(int column, int row)
     return vec3(cos(elevation) * cos(turn), cos(elevation) * sin(turn), sin(elevation));
 }
 
-/* What a direction shows. */
-enum shown { NOTHING, THING, GROUND, KNOWN_GROUND };
+/* What a direction shows: ground has its orthophoto, a floor is level ground farther away. */
+enum shown { NOTHING, THING, FLOOR, GROUND };
 
-static bool is_ground(const struct relief_input *in, const struct static_hit *hit, struct vec3 p)
+static bool is_level(const struct static_mesh *place, const struct static_hit *hit)
 {
-    if (p.z > in->from_m.z || fabs(static_mesh_normal(in->place, hit->triangle).z) < RELIEF_LEVEL) return false;
-    for (size_t i = 0; i < in->n; i++) {
-        struct vec3 away = vec3_sub(p, in->entities[i].world_from_entity.translation);
-        if (hypot(away.x, away.y) < orthophoto_whole(&in->entities[i])) return true;
-    }
-    return false;
+    return fabs(static_mesh_normal(place, hit->triangle).z) > RELIEF_LEVEL;
 }
+
+/* Does ground there have its orthophoto? Out: *beside  the nearest entity of those that it is round */
+static bool has_orthophoto(const struct relief_input *in, const struct entity **beside, double x, double y)
+{
+    double least = INFINITY;
+    *beside = NULL;
+    for (size_t i = 0; i < in->n; i++) {
+        struct vec3 at = in->entities[i].world_from_entity.translation;
+        double away = hypot(x - at.x, y - at.y);
+        if (away > orthophoto_whole(&in->entities[i]) || away > least) continue;
+        least = away;
+        *beside = &in->entities[i];
+    }
+    return *beside != NULL;
+}
+
+/* --- what is seen --- */
 
 static enum shown shown_at(const struct relief_input *in, const struct static_hit *hit, struct vec3 p)
 {
+    const struct entity *beside;
     if (!isfinite(hit->range_m)) return NOTHING;
-    if (!is_ground(in, hit, p)) return THING;
-    for (size_t i = 0; i < in->known_count; i++)
-        if (prism_contains(&in->known[i], p)) return KNOWN_GROUND;
-    return GROUND;
+    if (p.z > in->from_m.z || !is_level(in->place, hit)) return THING;
+    return has_orthophoto(in, &beside, p.x, p.y) ? GROUND : FLOOR;
 }
 
 /* The points of a row of directions; a direction's has the number of the direction. */
-static void meet_row(struct relief *relief, uint8_t *shown, const struct relief_input *in, int row)
+static void meet_row(struct relief_part *seen, uint8_t *shown, const struct relief_input *in, int row)
 {
     struct vec3 direction[COLUMNS];
     struct static_hit hit[COLUMNS];
@@ -50,55 +63,142 @@ static void meet_row(struct relief *relief, uint8_t *shown, const struct relief_
     for (int i = 0; i < COLUMNS; i++) {
         struct vec3 p = isfinite(hit[i].range_m) ? vec3_add(in->from_m, vec3_scale(direction[i], hit[i].range_m)) : in->from_m;
         shown[i] = (uint8_t)shown_at(in, &hit[i], p);
-        relief->point_m[row * COLUMNS + i] = p;
+        seen->point_m[row * COLUMNS + i] = p;
     }
 }
 
-static void add_face(struct relief *relief, const uint8_t *shown, struct vec3 from, int a, int b, int c)
+static void add_face(struct relief_part *part, int a, int b, int c)
 {
-    uint32_t corner[3] = { (uint32_t)a, (uint32_t)b, (uint32_t)c };
+    memcpy(part->triangle[part->triangles++], (uint32_t[]){ (uint32_t)a, (uint32_t)b, (uint32_t)c }, sizeof *part->triangle);
+}
+
+static void add_seen(struct relief_part *seen, const uint8_t *shown, struct vec3 from, int a, int b, int c)
+{
+    const int corner[] = { a, b, c };
     double near = INFINITY, far = 0;
-    size_t ground = 0, known = 0;
+    int ground = 0, level = 0;
     for (int i = 0; i < 3; i++) {
         if (shown[corner[i]] == NOTHING) return;
-        ground += shown[corner[i]] != THING;
-        known += shown[corner[i]] == KNOWN_GROUND;
-        double range = vec3_norm(vec3_sub(relief->point_m[corner[i]], from));
+        ground += shown[corner[i]] == GROUND;
+        level += shown[corner[i]] != THING;
+        double range = vec3_norm(vec3_sub(seen->point_m[corner[i]], from));
         near = fmin(near, range);
         far = fmax(far, range);
     }
-    if (known == 3 || (far > GAP * near && ground < 3)) return;
-    memcpy(ground == 3 ? relief->ground[relief->grounds++] : relief->triangle[relief->triangles++], corner, sizeof corner);
+    /* Along the ground, neighbours lie far apart. */
+    if (ground < 3 && (level == 3 || far <= GAP * near)) add_face(seen, a, b, c);
+}
+
+static bool part_init(struct relief_part *part, size_t points)
+{
+    *part = (struct relief_part){ .point_m = calloc(points + 1, sizeof *part->point_m), .points = points,
+                                  .triangle = calloc(2 * points + 1, sizeof *part->triangle) };
+    return part->point_m && part->triangle;
+}
+
+static bool see(struct relief_part *seen, const struct relief_input *in)
+{
+    uint8_t *shown = calloc((size_t)ROWS * COLUMNS, sizeof *shown);
+    bool ok = part_init(seen, (size_t)ROWS * COLUMNS) && shown;
+    for (int row = 0; ok && row < ROWS; row++) meet_row(seen, shown + row * COLUMNS, in, row);
+    for (int row = 0; ok && row + 1 < ROWS; row++)
+        for (int i = 0; i < COLUMNS; i++) {
+            int a = row * COLUMNS + i, b = row * COLUMNS + (i + 1) % COLUMNS;
+            add_seen(seen, shown, in->from_m, a, b, b + COLUMNS);
+            add_seen(seen, shown, in->from_m, a, b + COLUMNS, a + COLUMNS);
+        }
+    free(shown);
+    return ok;
+}
+
+/* --- the ground --- */
+
+/* Points on a lattice of the world's, so that an entity that moves leaves the ground as it is. */
+struct lattice { int x0, y0, columns, rows; };
+
+static struct lattice lattice_round(const struct relief_input *in)
+{
+    double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY };
+    for (size_t i = 0; i < in->n; i++) {
+        struct vec3 at = in->entities[i].world_from_entity.translation;
+        double reach = orthophoto_whole(&in->entities[i]), p[2] = { at.x, at.y };
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], p[k] - reach);
+            high[k] = fmax(high[k], p[k] + reach);
+        }
+    }
+    if (!in->n) return (struct lattice){ 0 };
+    struct lattice l = { .x0 = (int)floor(low[0] / CELL_M), .y0 = (int)floor(low[1] / CELL_M) };
+    l.columns = (int)ceil(high[0] / CELL_M) - l.x0 + 1;
+    l.rows = (int)ceil(high[1] / CELL_M) - l.y0 + 1;
+    return l;
+}
+
+/* The level ground below a point's entity and what hangs over it. */
+static bool ground_below(struct vec3 *p, const struct relief_input *in, double x, double y)
+{
+    const struct entity *beside;
+    struct static_hit hit;
+    struct vec3 down = vec3(0, 0, -1);
+    if (!has_orthophoto(in, &beside, x, y)) return false;
+    struct vec3 from = vec3(x, y, beside->world_from_entity.translation.z + HEADROOM_M);
+    static_mesh_hits(in->place, &hit, from, &down, 1);
+    if (!isfinite(hit.range_m)) return false;
+    *p = vec3(x, y, from.z - hit.range_m);
+    return is_level(in->place, &hit);
+}
+
+static bool is_known(const struct relief_input *in, struct vec3 p)
+{
+    for (size_t i = 0; i < in->known_count; i++)
+        if (prism_contains(&in->known[i], p)) return true;
+    return false;
+}
+
+/* A cell of which all corners are ground, and not all are known. */
+static void add_cell(struct relief_part *ground, const struct relief_input *in, const bool *there, const int corner[4])
+{
+    int known = 0;
+    for (int i = 0; i < 4; i++) {
+        if (!there[corner[i]]) return;
+        known += is_known(in, ground->point_m[corner[i]]);
+    }
+    if (known == 4) return;
+    add_face(ground, corner[0], corner[1], corner[2]);
+    add_face(ground, corner[0], corner[2], corner[3]);
+}
+
+static bool lay_ground(struct relief_part *ground, const struct relief_input *in)
+{
+    struct lattice l = lattice_round(in);
+    size_t n = (size_t)l.columns * (size_t)l.rows;
+    bool *there = calloc(n + 1, sizeof *there), ok = part_init(ground, n) && there;
+    for (int i = 0; ok && i < (int)n; i++)
+        there[i] = ground_below(&ground->point_m[i], in, (l.x0 + i % l.columns) * CELL_M, (l.y0 + i / l.columns) * CELL_M);
+    for (int y = 0; ok && y + 1 < l.rows; y++)
+        for (int x = 0; x + 1 < l.columns; x++) {
+            int a = y * l.columns + x;
+            add_cell(ground, in, there, (const int[]){ a, a + 1, a + 1 + l.columns, a + l.columns });
+        }
+    free(there);
+    return ok;
 }
 
 bool relief_create(struct relief *relief, const struct relief_input *in, struct error *err)
 {
-    size_t points = (size_t)ROWS * COLUMNS;
-    struct relief out = { .point_m = calloc(points, sizeof *out.point_m), .points = points,
-                          .triangle = calloc(2 * points, sizeof *out.triangle), .ground = calloc(2 * points, sizeof *out.ground) };
-    uint8_t *shown = calloc(points, sizeof *shown);
+    struct relief out = { 0 };
+    bool ok = see(&out.seen, in) && lay_ground(&out.ground, in);
     *relief = (struct relief){ 0 };
-    if (!out.point_m || !out.triangle || !out.ground || !shown) {
-        free(shown);
-        relief_release(&out);
-        return error_set(err, ERR_MEMORY, "no memory for what mirrors show of the place");
-    }
-    for (int row = 0; row < ROWS; row++) meet_row(&out, shown + row * COLUMNS, in, row);
-    for (int row = 0; row + 1 < ROWS; row++)
-        for (int i = 0; i < COLUMNS; i++) {
-            int a = row * COLUMNS + i, b = row * COLUMNS + (i + 1) % COLUMNS;
-            add_face(&out, shown, in->from_m, a, b, b + COLUMNS);
-            add_face(&out, shown, in->from_m, a, b + COLUMNS, a + COLUMNS);
-        }
-    free(shown);
-    *relief = out;
-    return true;
+    if (ok) *relief = out;
+    else relief_release(&out);
+    return ok || error_set(err, ERR_MEMORY, "no memory for what mirrors show of the place");
 }
 
 void relief_release(struct relief *relief)
 {
-    free(relief->point_m);
-    free(relief->triangle);
-    free(relief->ground);
+    free(relief->seen.point_m);
+    free(relief->seen.triangle);
+    free(relief->ground.point_m);
+    free(relief->ground.triangle);
     *relief = (struct relief){ 0 };
 }

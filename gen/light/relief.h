@@ -1,6 +1,6 @@
 /* The place round the entities as mirrors meet it: a coarse surface of what is seen from among them, as far away as it is.
- * The panorama is its picture, but for level ground that has its orthophoto: that lies in sun and sky, so that
- * entities shade it. What is not seen from there is not on it. */
+ * The panorama is its picture. What is not seen from there is not on it, but for level ground that has its orthophoto: that is
+ * all there, also behind a parked car, and lies in sun and sky, so that entities shade it. */
 #ifndef STAFFAGE_GEN_RELIEF_H
 #define STAFFAGE_GEN_RELIEF_H
 
@@ -18,10 +18,8 @@
 #define RELIEF_LOWEST_RAD (30 * M_PI / 180)
 
 struct relief {
-    struct vec3 *point_m;        /* (points) world */
-    size_t points;
-    uint32_t (*triangle)[3], (*ground)[3]; /* (triangles), (grounds) with an orthophoto */
-    size_t triangles, grounds;
+    struct relief_part { struct vec3 *point_m; size_t points; uint32_t (*triangle)[3]; size_t triangles; } /* world */
+        seen, ground;            /* ground: with an orthophoto */
 };
 
 struct relief_input {

@@ -109,16 +109,16 @@ bool shades_include_write(const char *path, const struct static_cut *shades, con
     return write_include(&sdl, path, err);
 }
 
-static void write_part(struct sdl *sdl, const char *name, const struct relief *relief, const uint32_t (*triangle)[3], size_t triangles)
+static void write_part(struct sdl *sdl, const char *name, const struct relief_part *part)
 {
     sdl_declare(sdl, name);
-    if (!triangles) {
+    if (!part->triangles) {
         mesh_sdl_nowhere(sdl);
         return;
     }
     sdl_begin(sdl, "mesh2");
-    mesh_sdl_vectors(sdl, "vertex_vectors", relief->point_m, relief->points);
-    mesh_sdl_faces(sdl, triangle, triangles);
+    mesh_sdl_vectors(sdl, "vertex_vectors", part->point_m, part->points);
+    mesh_sdl_faces(sdl, part->triangle, part->triangles);
     sdl_end(sdl);
 }
 
@@ -127,7 +127,7 @@ bool relief_include_write(const char *path, const struct relief *relief, struct 
     struct sdl sdl;
     sdl_init(&sdl);
     sdl_header(&sdl, "the place as mirrors meet it, seen from among the entities of a frame: metres, world");
-    write_part(&sdl, "Relief", relief, relief->triangle, relief->triangles);
-    write_part(&sdl, "Relief_Ground", relief, relief->ground, relief->grounds);
+    write_part(&sdl, "Relief", &relief->seen);
+    write_part(&sdl, "Relief_Ground", &relief->ground);
     return write_include(&sdl, path, err);
 }

@@ -11,24 +11,24 @@
 #define POST_Y 8.0
 
 /* Of a triangle: do all corners lie on a plane y = at? */
-static bool upright_at(const struct relief *r, const uint32_t triangle[3], double at)
+static bool upright_at(const struct relief_part *r, const uint32_t triangle[3], double at)
 {
     for (int k = 0; k < 3; k++)
         if (fabs(r->point_m[triangle[k]].y - at) > 1e-4) return false;
     return true;
 }
 
-static double highest(const struct relief *r, const uint32_t triangle[3])
+static double highest(const struct relief_part *r, const uint32_t triangle[3])
 {
     return fmax(fmax(r->point_m[triangle[0]].z, r->point_m[triangle[1]].z), r->point_m[triangle[2]].z);
 }
 
-static double nearest_y(const struct relief *r, const uint32_t triangle[3])
+static double nearest_y(const struct relief_part *r, const uint32_t triangle[3])
 {
     return fmin(fmin(r->point_m[triangle[0]].y, r->point_m[triangle[1]].y), r->point_m[triangle[2]].y);
 }
 
-static double farthest_y(const struct relief *r, const uint32_t triangle[3])
+static double farthest_y(const struct relief_part *r, const uint32_t triangle[3])
 {
     return fmax(fmax(r->point_m[triangle[0]].y, r->point_m[triangle[1]].y), r->point_m[triangle[2]].y);
 }
@@ -51,21 +51,23 @@ int main(void)
     if (!OK(place_mesh(&mesh, &place, false, &err), "a place")) return tap_done();
     in.place = mesh;
     if (!OK(relief_create(&r, &in, &err), "its relief: %s", err.text)) return tap_done();
-    size_t wall = 0, post = 0, ground = 0, between = 0;
+    size_t wall = 0, post = 0, ground = 0, between = 0, behind = 0, floor = 0;
     double wall_top = 0, post_top = 0, farthest = 0, nearest = INFINITY;
-    for (size_t i = 0; i < r.triangles; i++) {
-        const uint32_t *t = r.triangle[i];
-        bool of_wall = upright_at(&r, t, WALL_Y), of_post = upright_at(&r, t, POST_Y);
+    for (size_t i = 0; i < r.seen.triangles; i++) {
+        const uint32_t *t = r.seen.triangle[i];
+        bool of_wall = upright_at(&r.seen, t, WALL_Y), of_post = upright_at(&r.seen, t, POST_Y);
         wall += of_wall;
+        floor += highest(&r.seen, t) < 1e-4 && farthest_y(&r.seen, t) > 20 && farthest_y(&r.seen, t) < WALL_Y - 1e-3;
         post += of_post;
-        between += nearest_y(&r, t) < POST_Y + 1e-4 && farthest_y(&r, t) > WALL_Y - 1e-4;
-        if (of_wall) wall_top = fmax(wall_top, highest(&r, t));
-        if (of_post) post_top = fmax(post_top, highest(&r, t));
+        between += nearest_y(&r.seen, t) < POST_Y + 1e-4 && farthest_y(&r.seen, t) > WALL_Y - 1e-4;
+        if (of_wall) wall_top = fmax(wall_top, highest(&r.seen, t));
+        if (of_post) post_top = fmax(post_top, highest(&r.seen, t));
     }
-    for (size_t i = 0; i < r.grounds; i++) {
-        struct vec3 a = r.point_m[r.ground[i][0]], b = r.point_m[r.ground[i][1]], c = r.point_m[r.ground[i][2]];
+    for (size_t i = 0; i < r.ground.triangles; i++) {
+        struct vec3 a = r.ground.point_m[r.ground.triangle[i][0]], b = r.ground.point_m[r.ground.triangle[i][1]], c = r.ground.point_m[r.ground.triangle[i][2]];
         ground += fabs(a.z) + fabs(b.z) + fabs(c.z) > 1e-4;
         farthest = fmax(farthest, fmax(hypot(a.x, a.y), fmax(hypot(b.x, b.y), hypot(c.x, c.y))));
+        behind += fabs(a.x) < 0.6 && a.y > POST_Y && a.y < POST_Y + 1.5;
         nearest = fmin(nearest, fmax(fabs(a.x), fabs(a.y)));
     }
     OK(wall > 200 && post > 30, "the wall stands where it stands, and so does the post (%zu and %zu faces)", wall, post);
@@ -73,10 +75,21 @@ int main(void)
     NEAR(wall_top, 6, 0.75, "as high as it is");
     NEAR(post_top, 5, 0.25, "the post, too");
     OK(between == 0, "nothing spans the gap between post and wall (%zu)", between);
-    OK(r.grounds > 100 && ground == 0, "ground with an orthophoto is level (%zu faces)", r.grounds);
+    OK(r.ground.triangles > 100 && ground == 0, "ground with an orthophoto is level (%zu faces)", r.ground.triangles);
+    OK(behind > 4, "also behind the post (%zu faces)", behind);
+    OK(floor > 20, "so is the ground beyond, as far as the wall (%zu faces)", floor);
     OK(farthest <= orthophoto_whole(&entity) + 1e-6 && farthest > 0.7 * orthophoto_whole(&entity), "as far as the orthophoto is whole (%.2f m)", farthest);
     OK(nearest > 1, "and not where it is known already (%.2f m)", nearest);
     relief_release(&r);
+    /* The ground ends at y = -10. */
+    entity.world_from_entity.translation = vec3(0, -8, 0);
+    if (OK(relief_create(&r, &in, &err), "where the place ends")) {
+        size_t bad = 0, beyond = 0;
+        for (size_t i = 0; i < r.ground.points; i++) bad += !isfinite(r.ground.point_m[i].z);
+        for (size_t i = 0; i < r.ground.triangles; i++) beyond += r.ground.point_m[r.ground.triangle[i][0]].y < -10;
+        OK(bad == 0 && beyond == 0 && r.ground.triangles > 100, "so does the ground (%zu, %zu)", bad, beyond);
+        relief_release(&r);
+    }
     static_mesh_destroy(mesh);
     place_free(&place);
     solid_free(&box);
