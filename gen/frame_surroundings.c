@@ -20,7 +20,10 @@
 
 #define LOWEST_SUN 0.05 /* its rays' slope, for a map along them */
 #define ROOM 1.2   /* the circle is so many times as far from the camera as what is within it */
-#define BODY_M 1.0 /* height over the ground at which entities look round */
+#define BODY_M 1.0 /* height over the ground at which entities look round on a plane */
+#define OVER_CARS_M 2.2 /* over a place: what stands near by hides less of what stands behind it */
+
+static double look_round_m(const struct frame *f) { return f->stage->mesh ? OVER_CARS_M : BODY_M; }
 
 /* Among the entities, by how much of each is seen: one that comes into the picture moves it little by little. */
 static struct vec3 among_entities(const struct frame *f)
@@ -33,7 +36,7 @@ static struct vec3 among_entities(const struct frame *f)
         sum = vec3_add(sum, vec3_scale(f->moment.entities[i].world_from_entity.translation, weight));
         weights += weight;
     }
-    return vec3_add(vec3_scale(sum, 1 / weights), vec3(0, 0, BODY_M));
+    return vec3_add(vec3_scale(sum, 1 / weights), vec3(0, 0, look_round_m(f)));
 }
 
 static struct seen seen_of(const struct frame *f, const struct image *unhidden)
@@ -164,7 +167,7 @@ static bool write_sky(struct pass_surroundings *out, const double color_gain[3],
 {
     if (f->scene->sky == SKY_MAP) return true;
     struct vec3 from = among_entities(f), eye = f->shot->world_from_camera.translation;
-    double ground = f->stage->mesh ? from.z - BODY_M : plane_height(&f->scene->ground, eye.x, eye.y);
+    double ground = f->stage->mesh ? from.z - look_round_m(f) : plane_height(&f->scene->ground, eye.x, eye.y);
     struct panorama_input in = {
         .seen = seen, .light = f->context->light, .from_m = from, .height_m = eye.z - ground,
         .told = !f->scene->skyline.assumed, .place = f->stage->mesh,

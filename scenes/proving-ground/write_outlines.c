@@ -123,7 +123,7 @@ bool write_outlines(FILE *f, const struct proving_case *c, const struct camera *
         o.eye_m = c->shots[i].eye_m;
         o.camera_from_world = pose_inverse(proving_shot_pose(&c->shots[i]));
         if (outlined(&o) && !outline_post(&o, err)) return false;
-        if (!c->has_mesh && !outline_parked(&o, err)) return false;
+        if (!c->flies && !outline_parked(&o, err)) return false;
     }
     return true;
 }
