@@ -193,7 +193,7 @@ static bool write_relief(struct pass_surroundings *out, const struct frame *f, s
     struct relief_input in = { .place = f->stage->mesh, .from_m = out->seen_from_m, .entities = entities, .known = known };
     for (size_t i = 0; known && entities && i < f->around.n; i++) {
         if (!f->matters[i]) continue;
-        known[in.known_count++] = f->around.receivers[i];
+        known[in.n] = f->around.receivers[i];
         entities[in.n++] = f->moment.entities[i];
     }
     struct relief relief;

@@ -10,7 +10,8 @@
 /* A step of 1.4 degrees is half a metre at 20 m: mirrors on a car are no flatter than that. */
 enum { COLUMNS = 256, ABOVE = COLUMNS / 4, BELOW = ABOVE / 3, ROWS = ABOVE + BELOW };
 _Static_assert(3 * BELOW <= ABOVE, "as low as the panorama has a picture");
-#define CELL_M 0.5        /* of the ground's lattice */
+#define CELL_M 0.5        /* of the ground's lattice, while it has no more points than this: */
+#define POINTS_MAX 40000
 #define HEADROOM_M 1.0    /* over the ground: what hangs higher leaves it ground */
 #define GAP 1.5           /* farther apart than this, as a ratio of ranges, two neighbours are two things */
 
@@ -28,41 +29,84 @@ static bool is_level(const struct static_mesh *place, const struct static_hit *h
     return fabs(static_mesh_normal(place, hit->triangle).z) > RELIEF_LEVEL;
 }
 
-/* Does ground there have its orthophoto? Out: *beside  the nearest entity of those that it is round */
-static bool has_orthophoto(const struct relief_input *in, const struct entity **beside, double x, double y)
+/* --- the ground's lattice --- */
+
+/* Points of the world's own, so that an entity that moves leaves the ground as it is; and which entity is nearest to each, of
+ * those that have their orthophoto there. */
+struct lattice { double cell_m; int x0, y0, columns, rows, *owner; };
+
+static void measure(struct lattice *l, const double low[2], const double high[2])
 {
-    double least = INFINITY;
-    *beside = NULL;
+    l->x0 = (int)floor(low[0] / l->cell_m);
+    l->y0 = (int)floor(low[1] / l->cell_m);
+    l->columns = (int)ceil(high[0] / l->cell_m) - l->x0 + 1;
+    l->rows = (int)ceil(high[1] / l->cell_m) - l->y0 + 1;
+}
+
+static double away_of(const struct entity *e, double x, double y)
+{
+    return hypot(x - e->world_from_entity.translation.x, y - e->world_from_entity.translation.y);
+}
+
+static void own(struct lattice *l, const struct relief_input *in, int entity)
+{
+    const struct entity *e = &in->entities[entity];
+    double reach = orthophoto_whole(e);
+    struct vec3 at = e->world_from_entity.translation;
+    for (int y = (int)ceil((at.y - reach) / l->cell_m); y <= (int)floor((at.y + reach) / l->cell_m); y++)
+        for (int x = (int)ceil((at.x - reach) / l->cell_m); x <= (int)floor((at.x + reach) / l->cell_m); x++) {
+            double away = away_of(e, x * l->cell_m, y * l->cell_m);
+            int *owner = &l->owner[(y - l->y0) * l->columns + x - l->x0];
+            if (away <= reach && (*owner < 0 || away < away_of(&in->entities[*owner], x * l->cell_m, y * l->cell_m))) *owner = entity;
+        }
+}
+
+static bool lattice_init(struct lattice *l, const struct relief_input *in)
+{
+    double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY };
+    *l = (struct lattice){ .cell_m = CELL_M };
     for (size_t i = 0; i < in->n; i++) {
         struct vec3 at = in->entities[i].world_from_entity.translation;
-        double away = hypot(x - at.x, y - at.y);
-        if (away > orthophoto_whole(&in->entities[i]) || away > least) continue;
-        least = away;
-        *beside = &in->entities[i];
+        double reach = orthophoto_whole(&in->entities[i]), p[2] = { at.x, at.y };
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], p[k] - reach);
+            high[k] = fmax(high[k], p[k] + reach);
+        }
     }
-    return *beside != NULL;
+    while (in->n && (high[0] - low[0]) * (high[1] - low[1]) > POINTS_MAX * l->cell_m * l->cell_m) l->cell_m *= 2;
+    if (in->n) measure(l, low, high);
+    int n = l->columns * l->rows;
+    l->owner = malloc(((size_t)n + 1) * sizeof *l->owner);
+    for (int i = 0; l->owner && i < n; i++) l->owner[i] = -1;
+    for (size_t i = 0; l->owner && i < in->n; i++) own(l, in, (int)i);
+    return l->owner;
+}
+
+static bool has_orthophoto(const struct lattice *l, double x, double y)
+{
+    int column = (int)floor(x / l->cell_m + 0.5) - l->x0, row = (int)floor(y / l->cell_m + 0.5) - l->y0;
+    return column >= 0 && row >= 0 && column < l->columns && row < l->rows && l->owner[row * l->columns + column] >= 0;
 }
 
 /* --- what is seen --- */
 
-static enum shown shown_at(const struct relief_input *in, const struct static_hit *hit, struct vec3 p)
+static enum shown shown_at(const struct relief_input *in, const struct lattice *l, const struct static_hit *hit, struct vec3 p)
 {
-    const struct entity *beside;
     if (!isfinite(hit->range_m)) return NOTHING;
     if (p.z > in->from_m.z || !is_level(in->place, hit)) return THING;
-    return has_orthophoto(in, &beside, p.x, p.y) ? GROUND : FLOOR;
+    return has_orthophoto(l, p.x, p.y) ? GROUND : FLOOR;
 }
 
 /* The points of a row of directions; a direction's has the number of the direction. */
-static void meet_row(struct relief_part *seen, uint8_t *shown, const struct relief_input *in, int row)
+static void meet_row(struct relief_part *seen, uint8_t *shown, const struct relief_input *in, const struct lattice *l, int row)
 {
     struct vec3 direction[COLUMNS];
     struct static_hit hit[COLUMNS];
     for (int i = 0; i < COLUMNS; i++) direction[i] = direction_of(i, row);
     static_mesh_hits(in->place, hit, in->from_m, direction, COLUMNS);
     for (int i = 0; i < COLUMNS; i++) {
-        struct vec3 p = isfinite(hit[i].range_m) ? vec3_add(in->from_m, vec3_scale(direction[i], hit[i].range_m)) : in->from_m;
-        shown[i] = (uint8_t)shown_at(in, &hit[i], p);
+        struct vec3 p = isfinite(hit[i].range_m) ? vec3_add(in->from_m, vec3_scale(direction[i], hit[i].range_m)) : vec3(0, 0, 0);
+        shown[i] = (uint8_t)shown_at(in, l, &hit[i], p);
         seen->point_m[row * COLUMNS + i] = p;
     }
 }
@@ -96,11 +140,11 @@ static bool part_init(struct relief_part *part, size_t points)
     return part->point_m && part->triangle;
 }
 
-static bool see(struct relief_part *seen, const struct relief_input *in)
+static bool see(struct relief_part *seen, const struct relief_input *in, const struct lattice *l)
 {
     uint8_t *shown = calloc((size_t)ROWS * COLUMNS, sizeof *shown);
     bool ok = part_init(seen, (size_t)ROWS * COLUMNS) && shown;
-    for (int row = 0; ok && row < ROWS; row++) meet_row(seen, shown + row * COLUMNS, in, row);
+    for (int row = 0; ok && row < ROWS; row++) meet_row(seen, shown + row * COLUMNS, in, l, row);
     for (int row = 0; ok && row + 1 < ROWS; row++)
         for (int i = 0; i < COLUMNS; i++) {
             int a = row * COLUMNS + i, b = row * COLUMNS + (i + 1) % COLUMNS;
@@ -113,72 +157,42 @@ static bool see(struct relief_part *seen, const struct relief_input *in)
 
 /* --- the ground --- */
 
-/* Points on a lattice of the world's, so that an entity that moves leaves the ground as it is. */
-struct lattice { int x0, y0, columns, rows; };
-
-static struct lattice lattice_round(const struct relief_input *in)
+/* The level ground below a point and what hangs over it. */
+static bool ground_below(struct vec3 *p, const struct relief_input *in, const struct lattice *l, int i)
 {
-    double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY };
-    for (size_t i = 0; i < in->n; i++) {
-        struct vec3 at = in->entities[i].world_from_entity.translation;
-        double reach = orthophoto_whole(&in->entities[i]), p[2] = { at.x, at.y };
-        for (int k = 0; k < 2; k++) {
-            low[k] = fmin(low[k], p[k] - reach);
-            high[k] = fmax(high[k], p[k] + reach);
-        }
-    }
-    if (!in->n) return (struct lattice){ 0 };
-    struct lattice l = { .x0 = (int)floor(low[0] / CELL_M), .y0 = (int)floor(low[1] / CELL_M) };
-    l.columns = (int)ceil(high[0] / CELL_M) - l.x0 + 1;
-    l.rows = (int)ceil(high[1] / CELL_M) - l.y0 + 1;
-    return l;
-}
-
-/* The level ground below a point's entity and what hangs over it. */
-static bool ground_below(struct vec3 *p, const struct relief_input *in, double x, double y)
-{
-    const struct entity *beside;
     struct static_hit hit;
     struct vec3 down = vec3(0, 0, -1);
-    if (!has_orthophoto(in, &beside, x, y)) return false;
-    struct vec3 from = vec3(x, y, beside->world_from_entity.translation.z + HEADROOM_M);
+    if (l->owner[i] < 0) return false;
+    struct vec3 from = vec3((l->x0 + i % l->columns) * l->cell_m, (l->y0 + i / l->columns) * l->cell_m,
+                            in->entities[l->owner[i]].world_from_entity.translation.z + HEADROOM_M);
     static_mesh_hits(in->place, &hit, from, &down, 1);
     if (!isfinite(hit.range_m)) return false;
-    *p = vec3(x, y, from.z - hit.range_m);
+    *p = vec3(from.x, from.y, from.z - hit.range_m);
     return is_level(in->place, &hit);
 }
 
-static bool is_known(const struct relief_input *in, struct vec3 p)
-{
-    for (size_t i = 0; i < in->known_count; i++)
-        if (prism_contains(&in->known[i], p)) return true;
-    return false;
-}
-
 /* A cell of which all corners are ground, and not all are known. */
-static void add_cell(struct relief_part *ground, const struct relief_input *in, const bool *there, const int corner[4])
+static void add_cell(struct relief_part *ground, const struct relief_input *in, const struct lattice *l, const bool *there, const int corner[4])
 {
     int known = 0;
     for (int i = 0; i < 4; i++) {
         if (!there[corner[i]]) return;
-        known += is_known(in, ground->point_m[corner[i]]);
+        known += in->known && prism_contains(&in->known[l->owner[corner[i]]], ground->point_m[corner[i]]);
     }
     if (known == 4) return;
     add_face(ground, corner[0], corner[1], corner[2]);
     add_face(ground, corner[0], corner[2], corner[3]);
 }
 
-static bool lay_ground(struct relief_part *ground, const struct relief_input *in)
+static bool lay_ground(struct relief_part *ground, const struct relief_input *in, const struct lattice *l)
 {
-    struct lattice l = lattice_round(in);
-    size_t n = (size_t)l.columns * (size_t)l.rows;
-    bool *there = calloc(n + 1, sizeof *there), ok = part_init(ground, n) && there;
-    for (int i = 0; ok && i < (int)n; i++)
-        there[i] = ground_below(&ground->point_m[i], in, (l.x0 + i % l.columns) * CELL_M, (l.y0 + i / l.columns) * CELL_M);
-    for (int y = 0; ok && y + 1 < l.rows; y++)
-        for (int x = 0; x + 1 < l.columns; x++) {
-            int a = y * l.columns + x;
-            add_cell(ground, in, there, (const int[]){ a, a + 1, a + 1 + l.columns, a + l.columns });
+    int n = l->columns * l->rows;
+    bool *there = calloc((size_t)n + 1, sizeof *there), ok = part_init(ground, (size_t)n) && there;
+    for (int i = 0; ok && i < n; i++) there[i] = ground_below(&ground->point_m[i], in, l, i);
+    for (int y = 0; ok && y + 1 < l->rows; y++)
+        for (int x = 0; x + 1 < l->columns; x++) {
+            int a = y * l->columns + x;
+            add_cell(ground, in, l, there, (const int[]){ a, a + 1, a + 1 + l->columns, a + l->columns });
         }
     free(there);
     return ok;
@@ -187,7 +201,9 @@ static bool lay_ground(struct relief_part *ground, const struct relief_input *in
 bool relief_create(struct relief *relief, const struct relief_input *in, struct error *err)
 {
     struct relief out = { 0 };
-    bool ok = see(&out.seen, in) && lay_ground(&out.ground, in);
+    struct lattice lattice;
+    bool ok = lattice_init(&lattice, in) && see(&out.seen, in, &lattice) && lay_ground(&out.ground, in, &lattice);
+    free(lattice.owner);
     *relief = (struct relief){ 0 };
     if (ok) *relief = out;
     else relief_release(&out);

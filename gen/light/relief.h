@@ -27,8 +27,7 @@ struct relief_input {
     struct vec3 from_m;          /* as the panorama's */
     const struct entity *entities; /* (n) level ground round these has its orthophoto */
     size_t n;
-    const struct prism *known;   /* (known_count) level ground within these is left out: it is there already */
-    size_t known_count;
+    const struct prism *known;   /* (n) level ground within an entity's own is left out, for it is there already; NULL: none is */
 };
 
 /* Out: *relief, initialized here; free with relief_release

@@ -47,7 +47,7 @@ int main(void)
     place_ground(&place, 0, 0);
     place_wall(&place, -20, 20, WALL_Y, 0, 6, 0);
     place_wall(&place, -1, 1, POST_Y, 0, 5, 0);
-    struct relief_input in = { .from_m = { 0, 0, 1 }, .entities = &entity, .n = 1, .known = &known, .known_count = 1 };
+    struct relief_input in = { .from_m = { 0, 0, 1 }, .entities = &entity, .n = 1, .known = &known };
     if (!OK(place_mesh(&mesh, &place, false, &err), "a place")) return tap_done();
     in.place = mesh;
     if (!OK(relief_create(&r, &in, &err), "its relief: %s", err.text)) return tap_done();
