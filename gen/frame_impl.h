@@ -41,7 +41,7 @@ bool frame_expose(struct frame *f, struct error *err);
 /* The manifest, the last file of a frame: frame_manifest.c */
 bool frame_write_manifest(const struct frame *f, const struct frame_result *result, struct error *err);
 /* What is round the entities that matter, into the frame's folder: frame_surroundings.c
- * In: sight  the sky past them and the place
+ * In: sight  the sky past them; a rough mesh stands in the way of its own ground, and is not in it
  * Out: *surroundings, untouched on failure; free with frame_release_surroundings */
 bool frame_write_surroundings(struct pass_surroundings *surroundings, struct frame *f, const struct sky_sight *sight, struct error *err);
 /* The ground right below an entity: frame.c */

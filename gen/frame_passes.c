@@ -58,7 +58,7 @@ static bool write_shades(struct place_files *files, struct static_cut *shades, c
     return ok;
 }
 
-/* The sky past the place and the entities that matter. Out: *sight, the caller's, after a failure, too */
+/* The sky past the entities that matter and, unless around is NULL, the place. Out: *sight, the caller's, after a failure, too */
 static bool open_sight(struct sky_sight **sight, const struct static_cut *around, const struct frame *f, struct error *err)
 {
     bool ok = sky_sight_create(sight, f->context->light, pass_settings(f->scene->quality).sky_directions, around, err);
@@ -85,7 +85,7 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
     struct place_files files;
     struct shaded_ground ground = { 0 };
     struct static_cut around = { 0 }, shades = { 0 };
-    struct sky_sight *sight = NULL;
+    struct sky_sight *sight = NULL, *past_entities = NULL;
     bool ok = (entities && receivers && includes) || error_set(err, ERR_MEMORY, "no memory for a frame");
     for (size_t i = 0; ok && i < f->moment.n; i++) {
         if (!f->matters[i]) continue;
@@ -107,9 +107,11 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
     ok = ok &&
          (f->stage->mesh ? write_place(&files, &ground, &around, &shades, &passes.ground, f, err)
                          : shaded_ground_of_plane(&ground, &f->scene->ground, receivers, n, err)) &&
-         open_sight(&sight, &around, f, err) && frame_write_surroundings(&surroundings, f, sight, err) &&
+         open_sight(&sight, &around, f, err) && open_sight(&past_entities, NULL, f, err) &&
+         frame_write_surroundings(&surroundings, f, past_entities, err) &&
          (!f->stage->mesh || write_shades(&files, &shades, f, &surroundings.sun_share, err)) && light_ground(&ground, sight, f, err) && passes_write(f->folder, &passes, err);
     frame_release_surroundings(&surroundings);
+    sky_sight_destroy(past_entities);
     sky_sight_destroy(sight);
     shaded_ground_release(&ground);
     static_cut_release(&around);

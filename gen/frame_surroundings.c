@@ -165,8 +165,9 @@ static double circle_radius(const struct frame *f, double radius_m)
 static bool write_sky(struct pass_surroundings *out, const double color_gain[3], const struct frame *f, const struct seen *seen,
                       struct error *err)
 {
+    out->seen_from_m = among_entities(f);
     if (f->scene->sky == SKY_MAP) return true;
-    struct vec3 from = among_entities(f), eye = f->shot->world_from_camera.translation;
+    struct vec3 from = out->seen_from_m, eye = f->shot->world_from_camera.translation;
     double ground = f->stage->mesh ? from.z - look_round_m(f) : plane_height(&f->scene->ground, eye.x, eye.y);
     struct panorama_input in = {
         .seen = seen, .light = f->context->light, .from_m = from, .height_m = eye.z - ground,
@@ -177,7 +178,6 @@ static bool write_sky(struct pass_surroundings *out, const double color_gain[3],
     if (!panorama_create(&panorama, &in, err)) return false;
     bool ok = write_image(out->sky_map, f, "sky.exr", &panorama.lighting, err) &&
               write_image(out->mirrored_sky_map, f, "panorama.exr", &panorama.mirrored, err);
-    out->seen_from_m = from;
     out->circle_m = vec3(eye.x, eye.y, ground);
     if (panorama.radius_m > 0) out->circle_radius_m = circle_radius(f, panorama.radius_m);
     panorama_release(&panorama);
@@ -187,7 +187,7 @@ static bool write_sky(struct pass_surroundings *out, const double color_gain[3],
 /* Over a place, what the mirrored map shows stands where it stands. */
 static bool write_relief(struct pass_surroundings *out, const struct frame *f, struct error *err)
 {
-    if (!f->stage->mesh || !out->mirrored_sky_map[0]) return true;
+    if (!f->stage->mesh) return true;
     struct prism *known = calloc(f->around.n + 1, sizeof *known); /* borrowed */
     struct entity *entities = calloc(f->moment.n + 1, sizeof *entities);
     struct relief_input in = { .place = f->stage->mesh, .from_m = out->seen_from_m, .entities = entities, .known = known };
@@ -246,7 +246,7 @@ bool frame_write_surroundings(struct pass_surroundings *surroundings, struct fra
         return false;
     struct seen seen = seen_of(f, n ? &unhidden : NULL);
     bool ok = write_sun_share(&out, f, &seen, err) && write_ground(&out, color_gain, f, &seen, sight, err) && write_sky(&out, color_gain, f, &seen, err) &&
-              write_relief(&out, f, err) &&              write_standing(&out, f, &seen, err);
+              write_relief(&out, f, err) && write_standing(&out, f, &seen, err);
     image_release(&unhidden);
     if (ok) *surroundings = out;
     else frame_release_surroundings(&out);

@@ -193,7 +193,8 @@ static bool stand(struct texel *t, double *z_m, bool *visible, const struct shee
     double range = vec3_norm(to_eye);
     *z_m = p.z;
     struct vec2 q;
-    *visible = seen_project(in->seen, &q, p) && !seen_beside_nearer(in->seen, in->place_depth, q, pose_apply(in->seen->camera_from_world, p).z) &&
+    *visible = seen_project(in->seen, &q, p) &&
+               !seen_beside_nearer(in->seen, in->place_depth, q, p, static_mesh_normal(in->place, hit.triangle)) &&
                !static_mesh_blocks(in->place, p, vec3_scale(to_eye, 1 / range), OFF_GROUND_M, range);
     t->shaded = in->light->has_sun && static_mesh_blocks(in->place, p, in->light->sun_direction, OFF_GROUND_M, 1000);
     return true;

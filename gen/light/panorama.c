@@ -155,8 +155,7 @@ static bool of_place(struct sight *sight, const struct panorama_input *in, struc
     if (!seen_project(in->seen, &q, p) || seen_hidden(in->seen, q)) return true;
     struct vec3 to_eye = vec3_sub(eye, p);
     double range = vec3_norm(to_eye);
-    double z = pose_apply(in->seen->camera_from_world, p).z;
-    if (!seen_beside_nearer(in->seen, in->place_depth, q, z) &&
+    if (!seen_beside_nearer(in->seen, in->place_depth, q, p, static_mesh_normal(in->place, hit.triangle)) &&
         !static_mesh_blocks(in->place, p, vec3_scale(to_eye, 1 / range), OFF_PLACE_M, range))
         mix_picture(sight, in->seen, q, NULL, NULL, false);
     return true;

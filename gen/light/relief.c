@@ -10,8 +10,9 @@
 /* A step of 1.4 degrees is half a metre at 20 m: mirrors on a car are no flatter than that. */
 enum { COLUMNS = 256, ABOVE = COLUMNS / 4, BELOW = ABOVE / 3, ROWS = ABOVE + BELOW };
 _Static_assert(3 * BELOW <= ABOVE, "as low as the panorama has a picture");
-#define CELL_M 0.5        /* of the ground's lattice, while it has no more points than this: */
-#define POINTS_MAX 40000
+#define CELL_M 0.5        /* of the ground's lattice, while it has no more points than this, 1 km by 1 km: */
+#define POINTS_MAX 4e6
+#define STEEPEST 0.3      /* of what neighbours on the ground rise, as a share of how far apart they are */
 #define HEADROOM_M 1.0    /* over the ground: what hangs higher leaves it ground */
 #define GAP 1.5           /* farther apart than this, as a ratio of ranges, two neighbours are two things */
 
@@ -33,7 +34,7 @@ static bool is_level(const struct static_mesh *place, const struct static_hit *h
 
 /* Points of the world's own, so that an entity that moves leaves the ground as it is; and which entity is nearest to each, of
  * those that have their orthophoto there. */
-struct lattice { double cell_m; int x0, y0, columns, rows, *owner; };
+struct lattice { double cell_m; int x0, y0, columns, rows, *owner, *number; size_t owned; /* number: of the owned, in their order */ };
 
 static void measure(struct lattice *l, const double low[2], const double high[2])
 {
@@ -77,15 +78,31 @@ static bool lattice_init(struct lattice *l, const struct relief_input *in)
     if (in->n) measure(l, low, high);
     int n = l->columns * l->rows;
     l->owner = malloc(((size_t)n + 1) * sizeof *l->owner);
-    for (int i = 0; l->owner && i < n; i++) l->owner[i] = -1;
-    for (size_t i = 0; l->owner && i < in->n; i++) own(l, in, (int)i);
-    return l->owner;
+    l->number = calloc((size_t)n + 1, sizeof *l->number);
+    if (!l->owner || !l->number) return false;
+    for (int i = 0; i < n; i++) l->owner[i] = -1;
+    for (size_t i = 0; i < in->n; i++) own(l, in, (int)i);
+    for (int i = 0; i < n; i++)
+        if (l->owner[i] >= 0) l->number[i] = (int)l->owned++;
+    return true;
 }
 
-static bool has_orthophoto(const struct lattice *l, double x, double y)
+/* What lies higher is no ground. */
+static double ground_top(const struct relief_input *in, const struct lattice *l, int i)
 {
-    int column = (int)floor(x / l->cell_m + 0.5) - l->x0, row = (int)floor(y / l->cell_m + 0.5) - l->y0;
-    return column >= 0 && row >= 0 && column < l->columns && row < l->rows && l->owner[row * l->columns + column] >= 0;
+    return in->entities[l->owner[i]].world_from_entity.translation.z + HEADROOM_M;
+}
+
+static bool has_orthophoto(const struct relief_input *in, const struct lattice *l, struct vec3 p)
+{
+    int column = (int)floor(p.x / l->cell_m + 0.5) - l->x0, row = (int)floor(p.y / l->cell_m + 0.5) - l->y0;
+    int i = row * l->columns + column;
+    return column >= 0 && row >= 0 && column < l->columns && row < l->rows && l->owner[i] >= 0 && p.z < ground_top(in, l, i);
+}
+
+static bool is_gentle(struct vec3 a, struct vec3 b)
+{
+    return fabs(a.z - b.z) <= STEEPEST * hypot(a.x - b.x, a.y - b.y);
 }
 
 /* --- what is seen --- */
@@ -94,7 +111,7 @@ static enum shown shown_at(const struct relief_input *in, const struct lattice *
 {
     if (!isfinite(hit->range_m)) return NOTHING;
     if (p.z > in->from_m.z || !is_level(in->place, hit)) return THING;
-    return has_orthophoto(l, p.x, p.y) ? GROUND : FLOOR;
+    return has_orthophoto(in, l, p) ? GROUND : FLOOR;
 }
 
 /* The points of a row of directions; a direction's has the number of the direction. */
@@ -129,8 +146,10 @@ static void add_seen(struct relief_part *seen, const uint8_t *shown, struct vec3
         near = fmin(near, range);
         far = fmax(far, range);
     }
+    const struct vec3 *p = seen->point_m;
     /* Along the ground, neighbours lie far apart. */
-    if (ground < 3 && (level == 3 || far <= GAP * near)) add_face(seen, a, b, c);
+    bool floor = level == 3 && is_gentle(p[a], p[b]) && is_gentle(p[b], p[c]) && is_gentle(p[c], p[a]);
+    if (ground < 3 && (floor || far <= GAP * near)) add_face(seen, a, b, c);
 }
 
 static bool part_init(struct relief_part *part, size_t points)
@@ -162,33 +181,34 @@ static bool ground_below(struct vec3 *p, const struct relief_input *in, const st
 {
     struct static_hit hit;
     struct vec3 down = vec3(0, 0, -1);
-    if (l->owner[i] < 0) return false;
-    struct vec3 from = vec3((l->x0 + i % l->columns) * l->cell_m, (l->y0 + i / l->columns) * l->cell_m,
-                            in->entities[l->owner[i]].world_from_entity.translation.z + HEADROOM_M);
+    struct vec3 from = vec3((l->x0 + i % l->columns) * l->cell_m, (l->y0 + i / l->columns) * l->cell_m, ground_top(in, l, i));
     static_mesh_hits(in->place, &hit, from, &down, 1);
     if (!isfinite(hit.range_m)) return false;
     *p = vec3(from.x, from.y, from.z - hit.range_m);
     return is_level(in->place, &hit);
 }
 
-/* A cell of which all corners are ground, and not all are known. */
+/* A cell of which all corners are ground, none a step above the next, and not all are known. In: there (l->owned) */
 static void add_cell(struct relief_part *ground, const struct relief_input *in, const struct lattice *l, const bool *there, const int corner[4])
 {
-    int known = 0;
+    int known = 0, k[4];
     for (int i = 0; i < 4; i++) {
-        if (!there[corner[i]]) return;
-        known += in->known && prism_contains(&in->known[l->owner[corner[i]]], ground->point_m[corner[i]]);
+        if (l->owner[corner[i]] < 0 || !there[l->number[corner[i]]]) return;
+        k[i] = l->number[corner[i]];
+        known += in->known && prism_contains(&in->known[l->owner[corner[i]]], ground->point_m[k[i]]);
     }
-    if (known == 4) return;
-    add_face(ground, corner[0], corner[1], corner[2]);
-    add_face(ground, corner[0], corner[2], corner[3]);
+    const struct vec3 *p = ground->point_m;
+    bool gentle = is_gentle(p[k[0]], p[k[1]]) && is_gentle(p[k[1]], p[k[2]]) && is_gentle(p[k[2]], p[k[3]]) && is_gentle(p[k[3]], p[k[0]]);
+    if (known == 4 || !gentle) return;
+    add_face(ground, k[0], k[1], k[2]);
+    add_face(ground, k[0], k[2], k[3]);
 }
 
 static bool lay_ground(struct relief_part *ground, const struct relief_input *in, const struct lattice *l)
 {
-    int n = l->columns * l->rows;
-    bool *there = calloc((size_t)n + 1, sizeof *there), ok = part_init(ground, (size_t)n) && there;
-    for (int i = 0; ok && i < n; i++) there[i] = ground_below(&ground->point_m[i], in, l, i);
+    bool *there = calloc(l->owned + 1, sizeof *there), ok = part_init(ground, l->owned) && there;
+    for (int i = 0; ok && i < l->columns * l->rows; i++)
+        if (l->owner[i] >= 0) there[l->number[i]] = ground_below(&ground->point_m[l->number[i]], in, l, i);
     for (int y = 0; ok && y + 1 < l->rows; y++)
         for (int x = 0; x + 1 < l->columns; x++) {
             int a = y * l->columns + x;
@@ -204,6 +224,7 @@ bool relief_create(struct relief *relief, const struct relief_input *in, struct 
     struct lattice lattice;
     bool ok = lattice_init(&lattice, in) && see(&out.seen, in, &lattice) && lay_ground(&out.ground, in, &lattice);
     free(lattice.owner);
+    free(lattice.number);
     *relief = (struct relief){ 0 };
     if (ok) *relief = out;
     else relief_release(&out);

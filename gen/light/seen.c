@@ -8,7 +8,7 @@
 #define SATURATED 250
 #define PIXEL_OF_GROUND_M 0.5
 #define OUTLINE_M 0.15  /* how far off a reconstruction's outlines may be */
-#define NEARER 0.92     /* ground that is seen along it comes nearer by less within that reach */
+#define NEARER 0.92     /* as a share of the depth: what is nearer by less hides little */
 
 void seen_init(struct seen *seen)
 {
@@ -50,15 +50,18 @@ double seen_trust(const struct seen *seen, struct vec2 q)
     return trust > 0 && seen_hidden(seen, q) ? 0 : trust;
 }
 
-bool seen_beside_nearer(const struct seen *seen, const struct image *place_depth, struct vec2 q, double z_m)
+bool seen_beside_nearer(const struct seen *seen, const struct image *place_depth, struct vec2 q, struct vec3 p, struct vec3 normal)
 {
     enum { ROUND = 8 };
-    double reach = 2 + OUTLINE_M / (z_m * seen->pixel_rad);
+    double z_m = pose_apply(seen->camera_from_world, p).z, reach = 2 + OUTLINE_M / (z_m * seen->pixel_rad);
+    /* A surface that is seen along it comes nearer by itself within that reach. */
+    double slant = fabs(vec3_dot(normal, vec3_unit(vec3_sub(p, seen->world_from_camera.translation))));
+    double limit = z_m * fmin(NEARER, slant / (slant + 2 * reach * seen->pixel_rad));
     for (int i = 0; i < 2 * ROUND; i++) {
         double r = i < ROUND ? reach : reach / 2, turn = 2 * M_PI * i / ROUND;
         double x = q.x + r * cos(turn), y = q.y + r * sin(turn);
         if (!(x >= 0 && y >= 0 && x < place_depth->width_px && y < place_depth->height_px)) continue;
-        if ((double)*image_f32(place_depth, (int)x, (int)y) < NEARER * z_m) return true;
+        if ((double)*image_f32(place_depth, (int)x, (int)y) < limit) return true;
     }
     return false;
 }

@@ -37,8 +37,9 @@ bool seen_hidden(const struct seen *seen, struct vec2 q_px);
 double seen_trust(const struct seen *seen, struct vec2 q_px);
 
 /* Does something of a place stand nearer beside a pixel position? By so much its outlines are off in a reconstruction, and what the
- * picture shows there may be of either. In: place_depth F32, z in the picture, NaN where there is none; z_m of what is looked at */
-bool seen_beside_nearer(const struct seen *seen, const struct image *place_depth, struct vec2 q_px, double z_m);
+ * picture shows there may be of either.
+ * In: place_depth F32, z in the picture, NaN where there is none; p_m what is looked at, at q_px; normal its surface's, unit */
+bool seen_beside_nearer(const struct seen *seen, const struct image *place_depth, struct vec2 q_px, struct vec3 p_m, struct vec3 normal);
 
 /* The radiance at a pixel position, between the middles of pixels linearly, through whatever air there is.
  * Returns true when the sensor may have been saturated: then there was this light, or more. */

@@ -34,6 +34,18 @@ static void write_cut(struct sdl *sdl, const char *name, const struct static_cut
     sdl_end(sdl);
 }
 
+static struct vec3 corner(const struct static_cut *cut, uint32_t i)
+{
+    const float *p = cut->position_m[i];
+    return vec3((double)p[0], (double)p[1], (double)p[2]);
+}
+
+static bool is_level(const struct static_cut *cut, const uint32_t t[3])
+{
+    struct vec3 a = corner(cut, t[0]), n = vec3_cross(vec3_sub(corner(cut, t[1]), a), vec3_sub(corner(cut, t[2]), a));
+    return fabs(n.z) > RELIEF_LEVEL * vec3_norm(n);
+}
+
 /* The level faces, and the smooth normals of their corners. */
 static bool level_part(struct static_cut *level, struct vec3 **normal, const struct static_cut *cut, struct error *err)
 {
@@ -46,7 +58,7 @@ static bool level_part(struct static_cut *level, struct vec3 **normal, const str
     for (size_t i = 0; ok && i < cut->vertices; i++) number[i] = UINT32_MAX;
     for (size_t i = 0; ok && i < cut->triangles; i++) {
         const uint32_t *t = cut->triangle[i];
-        if (fmin(fmin(smooth[t[0]].z, smooth[t[1]].z), smooth[t[2]].z) < RELIEF_LEVEL) continue;
+        if (!is_level(cut, t)) continue;
         for (int k = 0; k < 3; k++) {
             if (number[t[k]] == UINT32_MAX) {
                 number[t[k]] = (uint32_t)part.vertices;

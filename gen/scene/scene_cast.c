@@ -197,8 +197,10 @@ static bool read_outlined_shot(const struct reading *r, struct scene_occluder *o
                FAIL(r, node, "occluder \"%s\": key \"shot\" is missing: an outline fits one shot of a flight", occluder->name);
     yaml_integer(&index, shot);
     occluder->shot = (size_t)index;
-    return occluder->shot < r->scene->shot_count ||
-           FAIL(r, shot, "occluder \"%s\": there is no shot %d: they run from 0 to %zu", occluder->name, index, r->scene->shot_count - 1);
+    if (occluder->shot >= r->scene->shot_count)
+        return FAIL(r, shot, "occluder \"%s\": there is no shot %d: they run from 0 to %zu", occluder->name, index, r->scene->shot_count - 1);
+    return r->scene->fixed_camera || r->scene->shots[occluder->shot].photograph ||
+           FAIL(r, shot, "occluder \"%s\": shot %d is a new view: it has no photograph to outline anything on", occluder->name, index);
 }
 
 static bool read_occluder(const struct reading *r, struct scene_occluder *occluder, const struct yaml_node *node)

@@ -1,6 +1,5 @@
 #include "gen/trace/bounced.h"
 
-
 #include <math.h>
 
 #define FAR_M 1e5
@@ -45,14 +44,11 @@ void bounced_shade(struct image *albedo, const struct bounced_input *in)
             bool near = false;
             for (int i = 0; i < SIDE * SIDE; i++) {
                 struct vec2 at = { in->low_m.x + (x + (i % SIDE + 0.5) / SIDE) * texel.x, in->high_m.y - (y + (i / SIDE + 0.5) / SIDE) * texel.y };
-                const struct bounced_ground *g = nearest(in, at);
                 double left[3] = { 1, 1, 1 };
-                if (g) {
-                    struct vec3 p = vec3(at.x, at.y, plane_height(&g->plane, at.x, at.y));
-                    if (sky_sight_distance(in->sight, p) <= 0) {
-                        left_of(left, in, p, g->plane.normal);
-                        near = true;
-                    }
+                if (sky_sight_distance(in->sight, vec3(at.x, at.y, 0)) <= 0) {
+                    const struct bounced_ground *g = nearest(in, at);
+                    left_of(left, in, vec3(at.x, at.y, plane_height(&g->plane, at.x, at.y)), g->plane.normal);
+                    near = true;
                 }
                 for (int c = 0; c < 3; c++) sum[c] += left[c] / (SIDE * SIDE);
             }

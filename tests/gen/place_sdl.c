@@ -44,7 +44,7 @@ static bool render(struct image pass[3], struct scene *scene, const struct light
               static_mesh_cut(mesh, &receivers, around.receivers, around.n, &err) &&
               static_mesh_cut(mesh, &near, around.shades, around.shade_count, &err) &&
               shading_part(&shades, &rest, &near, &receivers, &light->sun_direction, light->has_sun, &err) &&
-              place_include_write(file, &receivers, &rest, &err) && 
+              place_include_write(file, &receivers, &rest, &err) &&
               shades_include_write(shades_path, &shades, (const size_t[TOLD_KINDS]){ shades.triangles }, &err) &&
               view_cover(&p.view, &camera, (struct rect){ 0, 0, WIDTH, HEIGHT }, 1, &err) &&
               shaded_ground_of_cut(&ground, &receivers, &err) && shade_ground(&ground, &p, &receiver, &near, &err) &&
