@@ -18,6 +18,8 @@
 #define LONE_MAX 0.06         /* where sharpening is looked for, which shows there, too */
 #define SPREAD 0.04           /* relative standard deviation of sharp edges' widths in one photograph: by place and colour */
 #define SAME 0.7              /* a maximum as high is no chance beside a higher one */
+#define CROWD_MIN 10          /* edges of a crowd that stands apart */
+#define APART 0.35            /* of its density is left before the next */
 #define WIDTH_MIN_PX 0.2
 #define WIDTH_MAX_PX 4.0
 #define WIDTH_STEP 0.01       /* relative */
@@ -143,15 +145,32 @@ static double density(double width_px, const struct found_edge *found, size_t n)
     return sum;
 }
 
+static size_t count_near(double width_px, const struct found_edge *found, size_t n)
+{
+    size_t near = 0;
+    for (size_t i = 0; i < n; i++) near += fabs(found[i].sigma_px - width_px) < 2 * hypot(found[i].error_px, SPREAD * width_px);
+    return near;
+}
+
 /* Where the edges crowd, each of them being as wide as its fit's error: what is poorly known counts little there. Nothing is
- * sharper than the lens makes it, but much is softer: shadows, what is out of focus. So it is the narrowest crowd. */
+ * sharper than the lens makes it, but much is softer: shadows, what is out of focus. So it is the narrowest crowd: one nearly as
+ * dense as the densest, or one of enough edges that stands apart, for the penumbra of trees is most of what a photograph of a
+ * park has. */
 static double crowd(const struct found_edge *found, size_t n)
 {
-    double highest = 0, before[2] = { 0 };
+    double highest = 0, before[2] = { 0 }, apart = 0, apart_density = 0;
     for (double w = WIDTH_MIN_PX; w < WIDTH_MAX_PX; w *= 1 + WIDTH_STEP) highest = fmax(highest, density(w, found, n));
     for (double w = WIDTH_MIN_PX; highest > 0 && w < WIDTH_MAX_PX; w *= 1 + WIDTH_STEP) {
-        double now = density(w, found, n);
-        if (before[1] >= SAME * highest && before[1] >= before[0] && before[1] > now) return w / (1 + WIDTH_STEP);
+        double now = density(w, found, n), last = w / (1 + WIDTH_STEP);
+        if (apart > 0 && now < APART * apart_density) return apart;
+        if (before[1] >= before[0] && before[1] > now) {
+            if (before[1] >= SAME * highest) return last;
+            bool enough = count_near(last, found, n) >= CROWD_MIN && before[1] > apart_density;
+            if (enough) {
+                apart = last;
+                apart_density = before[1];
+            }
+        }
         before[0] = before[1];
         before[1] = now;
     }

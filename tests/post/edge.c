@@ -82,6 +82,36 @@ static struct image place(double sigma, double contrast)
     return levels;
 }
 
+/* A park: of every four squares one is sharp, and three have the penumbra of a tree, of 1.2 to 1.5 px. */
+static struct image park(double sigma)
+{
+    struct image levels;
+    struct error err = ERROR_NONE;
+    if (!image_init(&levels, W, H, 3, PIXEL_F32, &err)) exit(99);
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++) {
+            int column = x / 60, row = y / 60, i = 8 * row + column;
+            double u = x + 0.5 - 60 * column - 30, v = y + 0.5 - 60 * row - 30, turn = 0.1 + 0.23 * column + 0.41 * row;
+            double a = u * cos(turn) + v * sin(turn), b = v * cos(turn) - u * sin(turn), wide = i % 4 == 1 ? sigma : 1.2 + 0.02 * (i % 16);
+            double light = 0.1 + 0.3 * within(a, 17, wide) * within(b, 17, wide);
+            for (int c = 0; c < 3; c++) image_f32(&levels, x, y)[c] = 255 * srgb_from_linear((float)light);
+        }
+    return levels;
+}
+
+static void check_park(void)
+{
+    struct error err = ERROR_NONE;
+    struct edges e;
+    for (double sigma = 0.4; sigma < 0.7; sigma += 0.2) {
+        struct image rgb = taken(park(sigma), 0, 1, 1);
+        bool ok = edges_measure(&e, &rgb, NULL, &err);
+        OK(ok && e.count > 30 && e.sigma_px[1] > 1.1, "most edges of a park are soft (%zu, %.2f px)", e.count, e.sigma_px[1]);
+        NEAR(e.sharp_px / sigma, 1, 0.1, "the few sharp ones tell what the lens does");
+        image_release(&rgb);
+    }
+}
+
 static void check_place(void)
 {
     static const struct { double sigma, contrast, grain; int step; } cases[] = {
@@ -158,6 +188,7 @@ int main(void)
     image_release(&sharp);
 
     check_place();
+    check_park();
     check_sharpened();
     check_compared();
 
