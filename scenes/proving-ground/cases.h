@@ -28,7 +28,7 @@ struct proving_case {
     const struct proving_shot *shots;
     size_t shot_count;
     const char *photographed_as; /* the case whose photographs and truths these are, too; NULL: its own */
-    bool has_mesh;              /* the tool is given the reconstruction; else a plane, and the parked cars as occluders */
+    bool has_mesh;              /* the tool is given the reconstruction; else a plane */
     bool flies;                 /* its photographs color the reconstruction */
     struct camera camera;       /* at full size */
     const struct proving_entity *entities;
