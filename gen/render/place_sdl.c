@@ -5,7 +5,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static void write_vertices(struct sdl *sdl, const struct static_cut *cut)
 {
@@ -49,37 +48,11 @@ static bool is_level(const struct static_cut *cut, const uint32_t t[3])
 /* The level faces, and the smooth normals of their corners. */
 static bool level_part(struct static_cut *level, struct vec3 **normal, const struct static_cut *cut, struct error *err)
 {
-    struct static_cut part = { .position_m = calloc(cut->vertices + 1, sizeof *part.position_m),
-                               .triangle = calloc(cut->triangles + 1, sizeof *part.triangle) };
-    uint32_t *number = malloc((cut->vertices + 1) * sizeof *number);
-    struct vec3 *smooth = NULL;
-    bool ok = ((part.position_m && part.triangle && number) || error_set(err, ERR_MEMORY, "no memory for the place")) &&
-              static_cut_normals(&smooth, cut, err);
-    for (size_t i = 0; ok && i < cut->vertices; i++) number[i] = UINT32_MAX;
-    for (size_t i = 0; ok && i < cut->triangles; i++) {
-        const uint32_t *t = cut->triangle[i];
-        if (!is_level(cut, t)) continue;
-        for (int k = 0; k < 3; k++) {
-            if (number[t[k]] == UINT32_MAX) {
-                number[t[k]] = (uint32_t)part.vertices;
-                memcpy(part.position_m[part.vertices++], cut->position_m[t[k]], sizeof *cut->position_m);
-            }
-            part.triangle[part.triangles][k] = number[t[k]];
-        }
-        part.triangles++;
-    }
-    struct vec3 *of_part = ok ? calloc(part.vertices + 1, sizeof *of_part) : NULL;
-    if (ok && !of_part) ok = error_set(err, ERR_MEMORY, "no memory for the place");
-    for (size_t i = 0; ok && i < cut->vertices; i++)
-        if (number[i] != UINT32_MAX) of_part[number[i]] = smooth[i];
-    free(number);
-    free(smooth);
-    if (ok) {
-        *level = part;
-        *normal = of_part;
-    } else
-        static_cut_release(&part);
-    return ok;
+    bool *taken = calloc(cut->triangles + 1, sizeof *taken);
+    for (size_t i = 0; taken && i < cut->triangles; i++) taken[i] = is_level(cut, cut->triangle[i]);
+    bool ok = (taken && static_cut_pick(level, cut, taken, true)) || error_set(err, ERR_MEMORY, "no memory for the place");
+    free(taken);
+    return ok && static_cut_normals(normal, level, err);
 }
 
 static bool write_include(struct sdl *sdl, const char *path, struct error *err)
@@ -94,7 +67,10 @@ bool place_include_write(const char *path, const struct static_cut *receivers, c
 {
     struct static_cut level = { 0 };
     struct vec3 *normal = NULL;
-    if (!level_part(&level, &normal, receivers, err)) return false;
+    if (!level_part(&level, &normal, receivers, err)) {
+        static_cut_release(&level);
+        return false;
+    }
     struct sdl sdl;
     sdl_init(&sdl);
     sdl_header(&sdl, "the place round the entities of a frame: metres, world");

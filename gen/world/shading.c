@@ -3,7 +3,6 @@
 #include "gen/world/cut_rays.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* Does a shadow fall from p on something? */
 static bool casts(const struct cut_rays *receivers, const float p[3], const struct vec3 *towards, size_t n)
@@ -33,30 +32,13 @@ static void spread(bool *to, const bool *from, const struct static_cut *cut)
     }
 }
 
-/* The triangles of a cut that have a marked corner, or those that have none. */
-static bool pick(struct static_cut *out, const struct static_cut *cut, const bool *marked, bool wanted)
+/* Out: taken (cut->triangles) those that have a marked corner */
+static void take(bool *taken, const bool *marked, const struct static_cut *cut)
 {
-    struct static_cut picked = { .position_m = calloc(cut->vertices + 1, sizeof *cut->position_m),
-                                 .triangle = calloc(cut->triangles + 1, sizeof *cut->triangle) };
-    uint32_t *number = malloc((cut->vertices + 1) * sizeof *number);
-    bool ok = picked.position_m && picked.triangle && number;
-    if (ok) memset(number, 0xff, (cut->vertices + 1) * sizeof *number);
-    for (size_t i = 0; ok && i < cut->triangles; i++) {
+    for (size_t i = 0; i < cut->triangles; i++) {
         const uint32_t *t = cut->triangle[i];
-        if ((marked[t[0]] || marked[t[1]] || marked[t[2]]) != wanted) continue;
-        for (int k = 0; k < 3; k++) {
-            if (number[t[k]] == UINT32_MAX) {
-                number[t[k]] = (uint32_t)picked.vertices;
-                memcpy(picked.position_m[picked.vertices++], cut->position_m[t[k]], sizeof *cut->position_m);
-            }
-            picked.triangle[picked.triangles][k] = number[t[k]];
-        }
-        picked.triangles++;
+        taken[i] = marked[t[0]] || marked[t[1]] || marked[t[2]];
     }
-    free(number);
-    if (ok) *out = picked;
-    else static_cut_release(&picked);
-    return ok;
 }
 
 bool shading_part(struct static_cut *shading, struct static_cut *rest, const struct static_cut *cut,
@@ -65,15 +47,18 @@ bool shading_part(struct static_cut *shading, struct static_cut *rest, const str
     struct cut_rays *rays = NULL;
     if (!cut_rays_create(&rays, receivers, err)) return false;
     bool *casting = calloc(cut->vertices + 1, sizeof *casting), *near = calloc(cut->vertices + 1, sizeof *near);
+    bool *taken = calloc(cut->triangles + 1, sizeof *taken);
     struct static_cut part = { 0 };
-    bool ok = casting && near;
+    bool ok = casting && near && taken;
     for (size_t i = 0; ok && i < cut->vertices; i++) casting[i] = casts(rays, cut->position_m[i], towards, n);
     for (size_t i = 0; ok && i < cut->triangles; i++)
         for (int k = 0; is_large(cut, cut->triangle[i]) && k < 3; k++) near[cut->triangle[i][k]] = true;
     if (ok) spread(near, casting, cut);
-    ok = ok && pick(&part, cut, near, true) && pick(rest, cut, near, false);
+    if (ok) take(taken, near, cut);
+    ok = ok && static_cut_pick(&part, cut, taken, true) && static_cut_pick(rest, cut, taken, false);
     if (ok) *shading = part;
     else static_cut_release(&part);
+    free(taken);
     free(near);
     free(casting);
     cut_rays_destroy(rays);

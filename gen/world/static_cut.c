@@ -321,6 +321,32 @@ void static_cut_release(struct static_cut *cut)
     *cut = (struct static_cut){ 0 };
 }
 
+bool static_cut_pick(struct static_cut *out, const struct static_cut *cut, const bool *taken, bool wanted)
+{
+    struct static_cut picked = { .position_m = calloc(cut->vertices + 1, sizeof *cut->position_m),
+                                 .triangle = calloc(cut->triangles + 1, sizeof *cut->triangle) };
+    uint32_t *number = malloc((cut->vertices + 1) * sizeof *number);
+    bool ok = picked.position_m && picked.triangle && number;
+    *out = (struct static_cut){ 0 };
+    if (ok) memset(number, 0xff, (cut->vertices + 1) * sizeof *number);
+    for (size_t i = 0; ok && i < cut->triangles; i++) {
+        const uint32_t *t = cut->triangle[i];
+        if (taken[i] != wanted) continue;
+        for (int k = 0; k < 3; k++) {
+            if (number[t[k]] == UINT32_MAX) {
+                number[t[k]] = (uint32_t)picked.vertices;
+                memcpy(picked.position_m[picked.vertices++], cut->position_m[t[k]], sizeof *cut->position_m);
+            }
+            picked.triangle[picked.triangles][k] = number[t[k]];
+        }
+        picked.triangles++;
+    }
+    free(number);
+    if (ok) *out = picked;
+    else static_cut_release(&picked);
+    return ok;
+}
+
 bool static_cut_normals(struct vec3 **out, const struct static_cut *cut, struct error *err)
 {
     struct vec3 *normal = calloc(cut->vertices + 1, sizeof *normal);

@@ -99,6 +99,9 @@ struct static_cut {
 bool static_mesh_cut(const struct static_mesh *mesh, struct static_cut *cut, const struct prism *prisms, size_t n,
                      struct error *err);
 void static_cut_release(struct static_cut *cut);
+/* The triangles that are taken, or those that are not, without colours.
+ * In: taken (cut->triangles). Out: *out, initialized here; false without memory */
+bool static_cut_pick(struct static_cut *out, const struct static_cut *cut, const bool *taken, bool wanted);
 /* Smooth normals: at each vertex that of the faces round it, by their area.
  * Out: *normal (vertices) unit, the caller's. Err: ERR_MEMORY */
 bool static_cut_normals(struct vec3 **normal, const struct static_cut *cut, struct error *err);

@@ -63,40 +63,36 @@ static struct image taken(struct image levels, double sharpening, double grain, 
 
 static double within(double at, double half, double sigma) { return (erfc((-at - half) / sigma * M_SQRT1_2) - erfc((-at + half) / sigma * M_SQRT1_2)) / 2; }
 
-/* A place: squares as above, of many contrasts; of every three one is blurred more, as shadows and what is out of focus are, by
- * much or little, and one is a bar of 4 px, which is not lone. Their light is Phi's by construction. */
-static struct image place(double sigma, double contrast)
+/* Squares as above, or bars, number i of a width and height of its own. Their light is Phi's by construction. */
+struct turned { double sigma, half, contrast; };
+static struct image drawn(struct turned (*of)(int i, double sigma, double contrast), double sigma, double contrast)
 {
     struct image levels;
     struct error err = ERROR_NONE;
     if (!image_init(&levels, W, H, 3, PIXEL_F32, &err)) exit(99);
     for (int y = 0; y < H; y++)
         for (int x = 0; x < W; x++) {
-            int column = x / 60, row = y / 60, i = 8 * row + column;
+            int column = x / 60, row = y / 60;
+            struct turned s = of(8 * row + column, sigma, contrast);
             double u = x + 0.5 - 60 * column - 30, v = y + 0.5 - 60 * row - 30, turn = 0.1 + 0.23 * column + 0.41 * row;
             double a = u * cos(turn) + v * sin(turn), b = v * cos(turn) - u * sin(turn);
-            double wide = i % 3 == 1 ? sigma * (1.3 + 0.1 * (i % 16)) : sigma, half = i % 3 == 2 ? 2 : 17;
-            double light = 0.1 + contrast * (0.3 + 0.1 * (i % 8)) * within(a, half, wide) * within(b, 17, wide);
+            double light = 0.1 + s.contrast * within(a, s.half, s.sigma) * within(b, 17, s.sigma);
             for (int c = 0; c < 3; c++) image_f32(&levels, x, y)[c] = 255 * srgb_from_linear((float)light);
         }
     return levels;
 }
 
-/* A park: of every four squares one is sharp, and three have the penumbra of a tree, of 1.2 to 1.5 px. */
-static struct image park(double sigma)
+/* A place: of every three one is blurred more, as shadows and what is out of focus are, by much or little, and one is a bar of
+ * 4 px, which is not lone. */
+static struct turned place(int i, double sigma, double contrast)
 {
-    struct image levels;
-    struct error err = ERROR_NONE;
-    if (!image_init(&levels, W, H, 3, PIXEL_F32, &err)) exit(99);
-    for (int y = 0; y < H; y++)
-        for (int x = 0; x < W; x++) {
-            int column = x / 60, row = y / 60, i = 8 * row + column;
-            double u = x + 0.5 - 60 * column - 30, v = y + 0.5 - 60 * row - 30, turn = 0.1 + 0.23 * column + 0.41 * row;
-            double a = u * cos(turn) + v * sin(turn), b = v * cos(turn) - u * sin(turn), wide = i % 4 == 1 ? sigma : 1.2 + 0.02 * (i % 16);
-            double light = 0.1 + 0.3 * within(a, 17, wide) * within(b, 17, wide);
-            for (int c = 0; c < 3; c++) image_f32(&levels, x, y)[c] = 255 * srgb_from_linear((float)light);
-        }
-    return levels;
+    return (struct turned){ i % 3 == 1 ? sigma * (1.3 + 0.1 * (i % 16)) : sigma, i % 3 == 2 ? 2 : 17, contrast * (0.3 + 0.1 * (i % 8)) };
+}
+
+/* A park: of every four one is sharp, and three have the penumbra of a tree, of 1.2 to 1.5 px. */
+static struct turned park(int i, double sigma, double contrast)
+{
+    return (struct turned){ i % 4 == 1 ? sigma : 1.2 + 0.02 * (i % 16), 17, contrast };
 }
 
 static void check_park(void)
@@ -104,7 +100,7 @@ static void check_park(void)
     struct error err = ERROR_NONE;
     struct edges e;
     for (double sigma = 0.4; sigma < 0.7; sigma += 0.2) {
-        struct image rgb = taken(park(sigma), 0, 1, 1);
+        struct image rgb = taken(drawn(park, sigma, 0.3), 0, 1, 1);
         bool ok = edges_measure(&e, &rgb, NULL, &err);
         OK(ok && e.count > 30 && e.sigma_px[1] > 1.1, "most edges of a park are soft (%zu, %.2f px)", e.count, e.sigma_px[1]);
         NEAR(e.sharp_px / sigma, 1, 0.1, "the few sharp ones tell what the lens does");
@@ -120,7 +116,7 @@ static void check_place(void)
     struct error err = ERROR_NONE;
     struct edges e;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct image rgb = taken(place(cases[i].sigma, cases[i].contrast), 0, cases[i].grain, cases[i].step);
+        struct image rgb = taken(drawn(place, cases[i].sigma, cases[i].contrast), 0, cases[i].grain, cases[i].step);
         bool ok = edges_measure(&e, &rgb, NULL, &err);
         OK(ok && e.count > 30, "of %g px, contrast %g, grain %g, steps of %d: %zu edges", cases[i].sigma,
            cases[i].contrast, cases[i].grain, cases[i].step, e.count);
@@ -137,7 +133,7 @@ static void check_sharpened(void)
     for (int i = 0; i < 4; i++) {
         static const double amounts[] = { 0.35, 0.8, 0.35, 0.8 };
         const int step = i < 2 ? 1 : 4;
-        struct image rgb = taken(place(0.5, 0.6), amounts[i], 1.5, step);
+        struct image rgb = taken(drawn(place, 0.5, 0.6), amounts[i], 1.5, step);
         bool ok = edges_measure(&e, &rgb, NULL, &err);
         OK(ok && e.telling > 40, "of a camera that sharpens by %g, steps of %d: %zu edges tell", amounts[i], step, e.telling);
         NEAR(e.sharpening, amounts[i], 0.05 + 0.15 * amounts[i], "so much is found");
@@ -149,7 +145,7 @@ static void check_sharpened(void)
 static void check_compared(void)
 {
     struct error err = ERROR_NONE;
-    struct image a = taken(place(0.8, 0.6), 0, 2, 1), b = taken(place(0.6, 0.6), 0, 2, 1);
+    struct image a = taken(drawn(place, 0.8, 0.6), 0, 2, 1), b = taken(drawn(place, 0.6, 0.6), 0, 2, 1);
     double ratio;
     size_t count;
     bool ok = edges_compare(&ratio, &count, &a, &b, NULL, &err);
