@@ -218,7 +218,7 @@ static bool write_standing(struct pass_surroundings *out, const struct frame *f,
     for (size_t i = 0; i < occluders; i++) {
         struct pass_standing *s = &out->standing[out->standing_count];
         char name[40];
-        if (!standing_create(&s->thing, seen, &f->occluders[i], err)) return false;
+        if (!standing_create(&s->thing, seen, &f->occluders[i], f->stage->mesh ? &f->labels.place_depth : NULL, err)) return false;
         if (!s->thing.count) continue;
         out->standing_count++;
         snprintf(name, sizeof name, "standing-%zu.exr", i);

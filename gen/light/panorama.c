@@ -42,12 +42,21 @@ static double shown_to_side(const struct panorama_input *in, const struct wall *
     return aside - STEP_RAD;
 }
 
+/* Of a place rays tell what is near: what the picture shows past all of it is as far as the sky, and its ground goes on till there. */
+#define BEYOND 30 /* times as far as the place reaches from the camera */
+static double beyond_place(const struct static_mesh *place, struct vec3 eye)
+{
+    struct vec3 low, high;
+    static_mesh_bounds(place, &low, &high);
+    return BEYOND * hypot(fmax(fabs(low.x - eye.x), fabs(high.x - eye.x)), fmax(fabs(low.y - eye.y), fabs(high.y - eye.y)));
+}
+
 static struct wall raise_wall(const struct panorama_input *in)
 {
     struct vec3 forward = mat3_column(in->seen->world_from_camera.rotation, 2), eye = in->seen->world_from_camera.translation;
     struct wall wall = { .forward_rad = atan2(forward.y, forward.x) };
     double away = hypot(in->from_m.x - eye.x, in->from_m.y - eye.y), top = in->from_m.z;
-    wall.radius_m = fmax(seen_ground_reach(in->seen, in->height_m), 1.25 * away);
+    wall.radius_m = fmax(in->place ? beyond_place(in->place, eye) : seen_ground_reach(in->seen, in->height_m), 1.25 * away);
     while (top < in->from_m.z + wall.radius_m && shown(in, &wall, 0, top)) top += wall.radius_m * STEP_RAD;
     top = in->from_m.z + TOP_SHARE * (top - in->from_m.z);
     wall.left_rad = shown_to_side(in, &wall, 1, top);
@@ -161,12 +170,22 @@ static bool of_place(struct sight *sight, const struct panorama_input *in, struc
     return true;
 }
 
-/* The light's own ground. */
-static bool below(struct sight *sight, const struct panorama_input *in)
+/* What a place shows in the picture stands where it stands. */
+static bool shows_place(const struct panorama_input *in, struct vec2 q)
+{
+    return in->place && isfinite((double)*image_f32(in->place_depth, (int)q.x, (int)q.y));
+}
+
+/* The light's own ground, or past a place what the picture shows of it. */
+static bool below(struct sight *sight, const struct panorama_input *in, const struct wall *wall, struct vec3 d)
 {
     const float *ground = image_f32(&in->light->sky, 0, in->light->sky.height_px - 1);
+    double way = (in->from_m.z - (in->seen->world_from_camera.translation.z - in->height_m)) / -d.z;
+    struct vec2 q;
     for (int c = 0; c < 3; c++) sight->rgb[c] = (double)ground[c];
-    return false;
+    if (!in->place || !(way > 0) || !seen_project(in->seen, &q, vec3_add(in->from_m, vec3_scale(d, fmin(way, wall->radius_m)))) || shows_place(in, q))
+        return false;
+    return mix_picture(sight, in->seen, q, NULL, NULL, false) > 0;
 }
 
 /* Returns whether it is other than the light's sky. */
@@ -176,7 +195,7 @@ static bool look(struct sight *sight, const struct panorama_input *in, const str
     double aside, z, gain[3], sky[3];
     sight->known = 1;
     if (in->place && of_place(sight, in, d)) return true;
-    if (d.z < 0) return below(sight, in);
+    if (d.z < 0) return below(sight, in, wall, d);
     sky_between(sky, &in->light->open_sky, d);
     sky_between(sight->rgb, &in->light->sky, d);
     bool closed = in->told && sight->rgb[1] != sky[1];
@@ -184,9 +203,7 @@ static bool look(struct sight *sight, const struct panorama_input *in, const str
     if (!wall->there || hypot(d.x, d.y) < 0.1) return false;
     meet_wall(&aside, &z, in, wall, d);
     double shown_aside = in->place ? aside : fold(wall, aside);
-    if (!seen_project(in->seen, &q, wall_point(in, wall, shown_aside, z))) return false;
-    /* What a place shows in the picture stands where it stands. */
-    if (in->place && isfinite((double)*image_f32(in->place_depth, (int)q.x, (int)q.y))) return false;
+    if (!seen_project(in->seen, &q, wall_point(in, wall, shown_aside, z)) || shows_place(in, q)) return false;
     turned_light(gain, wall, aside, shown_aside);
     bool elsewhere = fabs(remainder(aside - shown_aside, 2 * M_PI)) > 1e-9;
     return mix_picture(sight, in->seen, q, z > in->seen->world_from_camera.translation.z ? sky : NULL, gain, closed && elsewhere) > 0;

@@ -3,7 +3,8 @@
  * Over a plane the picture tells no distances. Its ground is taken for ground as far as seen_ground_reach; what it shows
  * beyond stands there, upright, on a circle round the camera, and where the camera does not look the circle goes on
  * with the same mirrored, lit as the side that is seen there. What something hides is filled from beside it. Over a place the
- * rays tell what stands where: as the picture shows it, or else in its own colours. Higher up, and where neither tells, there is the
+ * rays tell what stands where: as the picture shows it, or else in its own colours; what it shows past the place is as far as the
+ * sky. Higher up, and where neither tells, there is the
  * light's sky, with what stands around in it; but nothing stands on what the picture shows to be sky. */
 #ifndef STAFFAGE_GEN_PANORAMA_H
 #define STAFFAGE_GEN_PANORAMA_H

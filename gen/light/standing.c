@@ -54,11 +54,16 @@ static bool enclose(struct standing *out)
     return true;
 }
 
+static struct vec3 texel_point(const struct standing *out, int x, int y)
+{
+    return pose_apply(out->world_from_rectangle, vec3((x + 0.5) / out->radiance.width_px * out->size_m.x,
+                                                      (1 - (y + 0.5) / out->radiance.height_px) * out->size_m.y, 0));
+}
+
 /* A texel's radiance by the share of it within the outline. Returns that share. */
 static float look(float rgbw[4], const struct standing *out, const struct seen *seen, int x, int y, uint64_t samples)
 {
-    struct vec3 p = pose_apply(out->world_from_rectangle, vec3((x + 0.5) / out->radiance.width_px * out->size_m.x,
-                                                               (1 - (y + 0.5) / out->radiance.height_px) * out->size_m.y, 0));
+    struct vec3 p = texel_point(out, x, y);
     struct vec2 q;
     double rgb[3];
     if (!samples || !seen_project(seen, &q, p)) return 0;
@@ -69,11 +74,27 @@ static float look(float rgbw[4], const struct standing *out, const struct seen *
     return rgbw[3];
 }
 
-/* Nothing is left of an outline that encloses no texel's part. */
-static bool paint(struct standing *out, const struct seen *seen, struct error *err)
+/* Does the place have at a texel what stands up, no farther before or behind the plane than the outline is wide? Ground
+ * that is seen through it is lower than half of the texel's height. */
+static bool place_stands(const struct standing *out, const struct seen *seen, const struct image *place_depth, int x, int y)
+{
+    struct vec3 p = texel_point(out, x, y), ray;
+    struct vec2 q;
+    struct error ignored = ERROR_NONE;
+    if (!seen_project(seen, &q, p) || !camera_unproject(seen->camera, &ray, q, &ignored)) return false;
+    double z = (double)*image_f32(place_depth, (int)q.x, (int)q.y);
+    if (!isfinite(z)) return false;
+    struct vec3 met = pose_apply(seen->world_from_camera, vec3_scale(ray, z / ray.z));
+    double before = vec3_dot(vec3_sub(met, p), mat3_column(out->world_from_rectangle.rotation, 2));
+    double base = out->world_from_rectangle.translation.z;
+    return met.z - base > (p.z - base) / 2 && fabs(before) <= out->size_m.x;
+}
+
+/* Nothing is left of an outline that encloses no texel's part, nor of one that the place has itself. */
+static bool paint(struct standing *out, const struct seen *seen, const struct image *place_depth, struct error *err)
 {
     int width = out->radiance.width_px, height = out->radiance.height_px;
-    float (*rgbw)[4] = calloc((size_t)width * (size_t)height, sizeof *rgbw), seen_of_it = 0;
+    float (*rgbw)[4] = calloc((size_t)width * (size_t)height, sizeof *rgbw), seen_of_it = 0, of_place = 0;
     uint64_t *samples = calloc((size_t)width, sizeof *samples);
     struct vec2 *texels = calloc(out->count, sizeof *texels);
     struct polygon polygon = { 0 };
@@ -83,11 +104,15 @@ static bool paint(struct standing *out, const struct seen *seen, struct error *e
               error_set(err, ERR_MEMORY, "no memory for what stands in a picture");
     for (int y = 0; ok && y < height; y++) {
         polygon_row_samples(&polygon, samples, y, 0, width);
-        for (int x = 0; x < width; x++) seen_of_it += look(rgbw[y * width + x], out, seen, x, y, samples[x]);
+        for (int x = 0; x < width; x++) {
+            float share = look(rgbw[y * width + x], out, seen, x, y, samples[x]);
+            seen_of_it += share;
+            if (share > 0 && place_depth && place_stands(out, seen, place_depth, x, y)) of_place += share;
+        }
     }
     ok = ok && push_pull(rgbw, width, height, err);
     for (int i = 0; ok && i < width * height; i++) memcpy((float *)out->radiance.data + 3 * i, rgbw[i], 3 * sizeof(float));
-    if (!(seen_of_it > 0)) out->count = 0;
+    if (!(2 * of_place < seen_of_it)) out->count = 0;
     polygon_release(&polygon);
     free(texels);
     free(samples);
@@ -95,7 +120,8 @@ static bool paint(struct standing *out, const struct seen *seen, struct error *e
     return ok;
 }
 
-bool standing_create(struct standing *standing, const struct seen *seen, const struct occluder *occluder, struct error *err)
+bool standing_create(struct standing *standing, const struct seen *seen, const struct occluder *occluder, const struct image *place_depth,
+                     struct error *err)
 {
     struct standing out = { 0 };
     struct vec3 eye = seen->world_from_camera.translation, away = vec3_sub(occluder->foot_m, eye), up = vec3(0, 0, 1);
@@ -111,7 +137,7 @@ bool standing_create(struct standing *standing, const struct seen *seen, const s
         double texel_m = fmax(range * seen->pixel_rad, fmax(out.size_m.x, out.size_m.y) / TEXELS_MAX);
         ok = image_init(&out.radiance, (int)fmax(1, ceil(out.size_m.x / texel_m - 1e-9)), (int)fmax(1, ceil(out.size_m.y / texel_m - 1e-9)), 3,
                         PIXEL_F32, err) &&
-             paint(&out, seen, err);
+             paint(&out, seen, place_depth, err);
     } else
         out.count = 0;
     if (ok && out.count) *standing = out;

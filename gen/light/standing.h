@@ -1,5 +1,6 @@
 /* What stands on the ground of a picture, upright, as mirrors and bouncing light meet it: its outline and its radiance
- * on the plane through its foot that faces the camera. Its other sides are not known: they are as this one. */
+ * on the plane through its foot that faces the camera. Its other sides are not known: they are as this one. What a place has
+ * itself stands there already. */
 #ifndef STAFFAGE_GEN_STANDING_H
 #define STAFFAGE_GEN_STANDING_H
 
@@ -19,9 +20,11 @@ struct standing {
     struct pose world_from_rectangle; /* metres: x as the picture's right, y up, z towards the camera; from the lower left */
 };
 
-/* Out: *standing, initialized here; free with standing_release
+/* In:  place_depth F32, z in the picture, not finite where a place has nothing; NULL: the ground is a plane
+ * Out: *standing, initialized here; free with standing_release
  * Err: ERR_MEMORY */
-bool standing_create(struct standing *standing, const struct seen *seen, const struct occluder *occluder, struct error *err);
+bool standing_create(struct standing *standing, const struct seen *seen, const struct occluder *occluder, const struct image *place_depth,
+                     struct error *err);
 void standing_release(struct standing *standing);
 
 #endif

@@ -79,7 +79,7 @@ static bool render(struct image *pass, const struct light *light, const struct e
         struct orthophoto_input in = { .seen = &seen, .light = light, .ground = &scene.ground, .entities = entity, .n = 1, .ground_albedo = { 0.3, 0.3, 0.3 } };
         ok = ok && orthophoto_create(&ground, &in, &err) && image_write(fine, &ground.mirrored, &err) && image_write(coarse, &ground.bouncing, &err);
         struct pass_standing *s = &around.standing[0];
-        if (ok && occluder) ok = standing_create(&s->thing, &seen, occluder, &err) && s->thing.count && image_write(standing, &s->thing.radiance, &err);
+        if (ok && occluder) ok = standing_create(&s->thing, &seen, occluder, NULL, &err) && s->thing.count && image_write(standing, &s->thing.radiance, &err);
         around.standing_count = occluder != NULL;
         around.low_m = ground.low_m;
         around.high_m = ground.high_m;
