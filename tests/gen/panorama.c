@@ -205,6 +205,55 @@ static void over_a_place(const struct light *light)
     image_release(&depth);
 }
 
+/* The place ends 30 m before the camera, 40 px below the horizon: what the picture shows past it is as far as the sky. */
+static void past_a_place(const struct light *light)
+{
+    struct error err = ERROR_NONE;
+    struct panorama p;
+    struct place place = { 0 };
+    struct static_mesh *mesh = NULL;
+    struct image depth = { 0 };
+    struct seen seen = { .picture = &picture, .camera = &camera, .world_from_camera = level, .k = { 0.5, 0.5, 0.5 } };
+    seen_init(&seen);
+    struct panorama_input in = input(&seen, light);
+    place_quad(&place, (const double[4][3]){ { -50, -10, 0 }, { 50, -10, 0 }, { 50, 30, 0 }, { -50, 30, 0 } }, 0);
+    /* A board 5 m before the camera, behind the body, that hides what is past it on the left. */
+    place_wall(&place, -3, -1.5, 5, 0, 8, 0);
+    if (!OK(place_mesh(&mesh, &place, false, &err) && image_init(&depth, WIDTH, HEIGHT, 1, PIXEL_F32, &err), "a place that ends")) return;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) *image_f32(&depth, x, y) = x >= 80 && x < 140 && y >= 70 ? 5 : y >= 190 ? 1200.0f / ((float)y - 149.5f) : NAN;
+    fill_px(&picture, 0, 0, WIDTH, HEIGHT, 0.1, 0.1, 0.1);
+    fill_px(&picture, 80, 70, 140, HEIGHT, 0.1, 0.4, 0.1);
+    /* Above the horizon, 90 px aside and 25 px up. */
+    fill_px(&picture, 280, 117, 300, 133, 0.4, 0.1, 0.1);
+    /* On the ground, 8 to 12 m aside 40 m before the camera: 6 / 40 * 200 = 30 px below the horizon. */
+    fill_px(&picture, 238, 174, 262, 186, 0.1, 0.1, 0.4);
+    in.place = mesh;
+    in.place_depth = &depth;
+    if (OK(panorama_create(&p, &in, &err), "past its end")) {
+        double aside = degrees(atan2(90, 200)), up = degrees(atan2(25, hypot(90, 200))), sky[3], model[3];
+        OK(!(p.radius_m > 0), "nothing stands on a circle");
+        near_radiance(&p.mirrored, 90 - aside, up, 0.8, 0.2, 0.2, "what is above the horizon is in the direction in which the camera sees it");
+        near_radiance(&p.mirrored, 90 - aside - 5, up, 0.2, 0.2, 0.2, "and not further aside, as if it were near");
+        near_radiance(&p.mirrored, 90 - aside, up + 4, 0.2, 0.2, 0.2, "nor higher");
+        near_radiance(&p.mirrored, 90 - degrees(atan2(10, 30)), -degrees(atan2(1, hypot(10, 30))), 0.2, 0.2, 0.8, "ground is where it lies: 30 m from here, 10 m aside");
+        near_radiance(&p.mirrored, 90, -degrees(atan2(1, 30)), 0.2, 0.2, 0.2, "beside it is what the picture shows beside it");
+        near_radiance(&p.mirrored, 90 - degrees(atan2(50, 200)), -degrees(atan2(30, hypot(50, 200))), 0.2, 0.2, 0.2, "the place is nearer than it");
+        near_radiance(&p.mirrored, 90 - degrees(atan2(50, 200)), -0.9, 0.2, 0.2, 0.2, "and farther off it ends");
+        /* Through the middle of the board, 10 degrees up; and to (-18, 40), which it hides. */
+        radiance_at(sky, &p.mirrored, 90 + degrees(atan2(90, 200)), 10);
+        light_sky_radiance(model, light, vec3(-sin(atan2(90, 200)) * cos(M_PI / 18), cos(atan2(90, 200)) * cos(M_PI / 18), sin(M_PI / 18)));
+        for (int c = 0; c < 3; c++) NEAR(sky[c], model[c], 0.03 * model[c], "where the picture shows the place there is the sky past it, channel %d", c);
+        const float *ground = image_f32(&light->sky, 0, light->sky.height_px - 1);
+        near_radiance(&p.mirrored, 90 + degrees(atan2(18, 30)), -degrees(atan2(1, hypot(18, 30))), (double)ground[0], (double)ground[1], (double)ground[2],
+                      "or the light's own ground");
+        panorama_release(&p);
+    }
+    static_mesh_destroy(mesh);
+    place_free(&place);
+    image_release(&depth);
+}
+
 int main(void)
 {
     struct error err = ERROR_NONE;
@@ -214,6 +263,7 @@ int main(void)
     if (!OK(light_create(&light, &scene, &err) && image_init(&picture, WIDTH, HEIGHT, 3, PIXEL_U8, &err), "light and a picture")) return tap_done();
     over_a_plane(&light);
     over_a_place(&light);
+    past_a_place(&light);
     with_a_skyline(&scene);
     image_release(&picture);
     light_release(&light);
