@@ -137,6 +137,11 @@ tests_gen_panorama_test_SOURCES = %D%/gen/panorama.c %D%/gen/place.h %D%/gen/vie
 nodist_EXTRA_tests_gen_panorama_test_SOURCES = dummy.cxx
 tests_gen_panorama_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/standing.test
+tests_gen_standing_test_SOURCES = %D%/gen/standing.c %D%/gen/view_above.h %D%/tap.h
+nodist_EXTRA_tests_gen_standing_test_SOURCES = dummy.cxx
+tests_gen_standing_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/relief.test
 tests_gen_relief_test_SOURCES = %D%/gen/relief.c %D%/gen/place.h %D%/gen/solid.h %D%/tap.h
 nodist_EXTRA_tests_gen_relief_test_SOURCES = dummy.cxx
