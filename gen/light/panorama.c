@@ -12,6 +12,7 @@ enum { WIDTH = 1024, FINE = 2 };   /* FINE: samples along a side of a pixel that
 #define STEP_RAD (0.5 * M_PI / 180)
 #define TOP_SHARE 0.7 /* higher up the sides of a picture show less */
 #define OFF_PLACE_M 0.3
+#define SKY_FAR_M 1e5
 enum { AZIMUTHS = 24 };
 
 /* The circle on which stands what the picture shows beyond its ground. */
@@ -42,21 +43,12 @@ static double shown_to_side(const struct panorama_input *in, const struct wall *
     return aside - STEP_RAD;
 }
 
-/* Of a place rays tell what is near: what the picture shows past all of it is as far as the sky, and its ground goes on till there. */
-#define BEYOND 30 /* times as far as the place reaches from the camera */
-static double beyond_place(const struct static_mesh *place, struct vec3 eye)
-{
-    struct vec3 low, high;
-    static_mesh_bounds(place, &low, &high);
-    return BEYOND * hypot(fmax(fabs(low.x - eye.x), fabs(high.x - eye.x)), fmax(fabs(low.y - eye.y), fabs(high.y - eye.y)));
-}
-
 static struct wall raise_wall(const struct panorama_input *in)
 {
     struct vec3 forward = mat3_column(in->seen->world_from_camera.rotation, 2), eye = in->seen->world_from_camera.translation;
     struct wall wall = { .forward_rad = atan2(forward.y, forward.x) };
     double away = hypot(in->from_m.x - eye.x, in->from_m.y - eye.y), top = in->from_m.z;
-    wall.radius_m = fmax(in->place ? beyond_place(in->place, eye) : seen_ground_reach(in->seen, in->height_m), 1.25 * away);
+    wall.radius_m = fmax(seen_ground_reach(in->seen, in->height_m), 1.25 * away);
     while (top < in->from_m.z + wall.radius_m && shown(in, &wall, 0, top)) top += wall.radius_m * STEP_RAD;
     top = in->from_m.z + TOP_SHARE * (top - in->from_m.z);
     wall.left_rad = shown_to_side(in, &wall, 1, top);
@@ -170,22 +162,32 @@ static bool of_place(struct sight *sight, const struct panorama_input *in, struc
     return true;
 }
 
-/* What a place shows in the picture stands where it stands. */
-static bool shows_place(const struct panorama_input *in, struct vec2 q)
+/* Does the picture show the place at a pixel position, or at one that is mixed with it? */
+static bool shows_place(const struct image *place_depth, struct vec2 q)
 {
-    return in->place && isfinite((double)*image_f32(in->place_depth, (int)q.x, (int)q.y));
+    for (int k = 0; k < 4; k++) {
+        int x = (int)floor(q.x + (k & 1 ? 0.5 : -0.5)), y = (int)floor(q.y + (k & 2 ? 0.5 : -0.5));
+        bool inside = x >= 0 && y >= 0 && x < place_depth->width_px && y < place_depth->height_px;
+        if (inside && isfinite((double)*image_f32(place_depth, x, y))) return true;
+    }
+    return false;
 }
 
-/* The light's own ground, or past a place what the picture shows of it. */
-static bool below(struct sight *sight, const struct panorama_input *in, const struct wall *wall, struct vec3 d)
+/* Rays tell what is of a place: what the picture shows past it is as far as the sky, and level ground goes on till there. */
+static bool past_place(struct sight *sight, const struct panorama_input *in, struct vec3 d, const double *sky)
+{
+    double ground_m = in->seen->world_from_camera.translation.z - in->height_m, way = SKY_FAR_M;
+    struct vec2 q;
+    if (d.z < 0) way = fmin(way, (in->from_m.z - ground_m) / -d.z);
+    if (!(way > 0) || !seen_project(in->seen, &q, vec3_add(in->from_m, vec3_scale(d, way))) || shows_place(in->place_depth, q)) return false;
+    return mix_picture(sight, in->seen, q, sky, NULL, false) > 0;
+}
+
+/* The light's own ground. */
+static void below(struct sight *sight, const struct panorama_input *in)
 {
     const float *ground = image_f32(&in->light->sky, 0, in->light->sky.height_px - 1);
-    double way = (in->from_m.z - (in->seen->world_from_camera.translation.z - in->height_m)) / -d.z;
-    struct vec2 q;
     for (int c = 0; c < 3; c++) sight->rgb[c] = (double)ground[c];
-    if (!in->place || !(way > 0) || !seen_project(in->seen, &q, vec3_add(in->from_m, vec3_scale(d, fmin(way, wall->radius_m)))) || shows_place(in, q))
-        return false;
-    return mix_picture(sight, in->seen, q, NULL, NULL, false) > 0;
 }
 
 /* Returns whether it is other than the light's sky. */
@@ -195,15 +197,19 @@ static bool look(struct sight *sight, const struct panorama_input *in, const str
     double aside, z, gain[3], sky[3];
     sight->known = 1;
     if (in->place && of_place(sight, in, d)) return true;
-    if (d.z < 0) return below(sight, in, wall, d);
+    if (d.z < 0) {
+        below(sight, in);
+        return in->place && past_place(sight, in, d, NULL);
+    }
     sky_between(sky, &in->light->open_sky, d);
     sky_between(sight->rgb, &in->light->sky, d);
     bool closed = in->told && sight->rgb[1] != sky[1];
     if (sight->open) memcpy(sight->rgb, sky, sizeof sky);
+    if (in->place) return past_place(sight, in, d, sky);
     if (!wall->there || hypot(d.x, d.y) < 0.1) return false;
     meet_wall(&aside, &z, in, wall, d);
-    double shown_aside = in->place ? aside : fold(wall, aside);
-    if (!seen_project(in->seen, &q, wall_point(in, wall, shown_aside, z)) || shows_place(in, q)) return false;
+    double shown_aside = fold(wall, aside);
+    if (!seen_project(in->seen, &q, wall_point(in, wall, shown_aside, z))) return false;
     turned_light(gain, wall, aside, shown_aside);
     bool elsewhere = fabs(remainder(aside - shown_aside, 2 * M_PI)) > 1e-9;
     return mix_picture(sight, in->seen, q, z > in->seen->world_from_camera.translation.z ? sky : NULL, gain, closed && elsewhere) > 0;
@@ -281,7 +287,8 @@ bool panorama_create(struct panorama *panorama, const struct panorama_input *in,
     struct panorama out = { 0 };
     const struct image *sky = &in->light->sky;
     int scale = sky->width_px < WIDTH ? WIDTH / sky->width_px : 1;
-    struct wall wall = raise_wall(in);
+    struct wall wall = { .there = false };
+    if (!in->place) wall = raise_wall(in);
     bool ok = image_init(&out.mirrored, scale * sky->width_px, scale * sky->height_px, 3, PIXEL_F32, err) &&
               image_init(&out.lighting, sky->width_px, sky->height_px, 3, PIXEL_F32, err) && paint(&out.mirrored, in, &wall, err);
     if (!ok) {
@@ -292,7 +299,7 @@ bool panorama_create(struct panorama *panorama, const struct panorama_input *in,
     const float *ground = image_f32(sky, 0, sky->height_px - 1);
     for (int y = painted_rows(in, &out.mirrored); y < out.mirrored.height_px; y++)
         for (int x = 0; x < out.mirrored.width_px; x++) memcpy(image_f32(&out.mirrored, x, y), ground, 3 * sizeof *ground);
-    if (wall.there && !in->place) out.radius_m = wall.radius_m;
+    if (wall.there) out.radius_m = wall.radius_m;
     *panorama = out;
     return true;
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define STEEPEST_RAD (45 * M_PI / 180)
+#define LOWEST_M 0.3   /* what is lower is ground */
 #define TEXELS_MAX 256 /* along a side of the rectangle */
 
 /* Where the ray through a pixel position meets the upright plane at the foot. */
@@ -74,27 +75,45 @@ static float look(float rgbw[4], const struct standing *out, const struct seen *
     return rgbw[3];
 }
 
-/* Does the place have at a texel what stands up, no farther before or behind the plane than the outline is wide? Ground
- * that is seen through it is lower than half of the texel's height. */
-static bool place_stands(const struct standing *out, const struct seen *seen, const struct image *place_depth, int x, int y)
+/* What the picture shows of the place at a texel: how high, and how far before the plane. False where there is nothing. */
+static bool meet_place(double *z_m, double *before_m, const struct standing *out, const struct seen *seen, const struct image *place_depth, int x, int y)
 {
     struct vec3 p = texel_point(out, x, y), ray;
     struct vec2 q;
     struct error ignored = ERROR_NONE;
     if (!seen_project(seen, &q, p) || !camera_unproject(seen->camera, &ray, q, &ignored)) return false;
-    double z = (double)*image_f32(place_depth, (int)q.x, (int)q.y);
-    if (!isfinite(z)) return false;
-    struct vec3 met = pose_apply(seen->world_from_camera, vec3_scale(ray, z / ray.z));
-    double before = vec3_dot(vec3_sub(met, p), mat3_column(out->world_from_rectangle.rotation, 2));
-    double base = out->world_from_rectangle.translation.z;
-    return met.z - base > (p.z - base) / 2 && fabs(before) <= out->size_m.x;
+    double depth = (double)*image_f32(place_depth, (int)q.x, (int)q.y);
+    if (!isfinite(depth)) return false;
+    struct vec3 met = pose_apply(seen->world_from_camera, vec3_scale(ray, depth / ray.z));
+    *z_m = met.z;
+    *before_m = vec3_dot(vec3_sub(met, p), mat3_column(out->world_from_rectangle.rotation, 2));
+    return true;
+}
+
+/* Does the place stand up itself behind most of the outline, no farther from the plane than the outline is wide in the mean? Ground
+ * that is seen through it is less than half as high as the texel it is seen through.
+ * In: rgbw  weight: the texel's share within the outline */
+static bool place_has(const struct standing *out, const struct seen *seen, const struct image *place_depth, float (*rgbw)[4])
+{
+    int width = out->radiance.width_px, height = out->radiance.height_px;
+    double all = 0, stands = 0, ground = INFINITY, z, before;
+    for (int i = 0; i < width * height; i++) all += (double)rgbw[i][3];
+    double deep = all * out->size_m.x / (width * height);
+    for (int i = 0; i < width * height; i++)
+        if (rgbw[i][3] > 0 && meet_place(&z, &before, out, seen, place_depth, i % width, i / width) && fabs(before) <= deep) ground = fmin(ground, z);
+    for (int i = 0; i < width * height; i++) {
+        if (!(rgbw[i][3] > 0) || !meet_place(&z, &before, out, seen, place_depth, i % width, i / width) || fabs(before) > deep) continue;
+        double up = texel_point(out, i % width, i / width).z - ground;
+        if (z - ground > fmax(LOWEST_M, up / 2)) stands += (double)rgbw[i][3];
+    }
+    return 2 * stands > all;
 }
 
 /* Nothing is left of an outline that encloses no texel's part, nor of one that the place has itself. */
 static bool paint(struct standing *out, const struct seen *seen, const struct image *place_depth, struct error *err)
 {
     int width = out->radiance.width_px, height = out->radiance.height_px;
-    float (*rgbw)[4] = calloc((size_t)width * (size_t)height, sizeof *rgbw), seen_of_it = 0, of_place = 0;
+    float (*rgbw)[4] = calloc((size_t)width * (size_t)height, sizeof *rgbw), seen_of_it = 0;
     uint64_t *samples = calloc((size_t)width, sizeof *samples);
     struct vec2 *texels = calloc(out->count, sizeof *texels);
     struct polygon polygon = { 0 };
@@ -104,15 +123,12 @@ static bool paint(struct standing *out, const struct seen *seen, const struct im
               error_set(err, ERR_MEMORY, "no memory for what stands in a picture");
     for (int y = 0; ok && y < height; y++) {
         polygon_row_samples(&polygon, samples, y, 0, width);
-        for (int x = 0; x < width; x++) {
-            float share = look(rgbw[y * width + x], out, seen, x, y, samples[x]);
-            seen_of_it += share;
-            if (share > 0 && place_depth && place_stands(out, seen, place_depth, x, y)) of_place += share;
-        }
+        for (int x = 0; x < width; x++) seen_of_it += look(rgbw[y * width + x], out, seen, x, y, samples[x]);
     }
+    bool left_out = ok && (!(seen_of_it > 0) || (place_depth && place_has(out, seen, place_depth, rgbw)));
     ok = ok && push_pull(rgbw, width, height, err);
     for (int i = 0; ok && i < width * height; i++) memcpy((float *)out->radiance.data + 3 * i, rgbw[i], 3 * sizeof(float));
-    if (!(2 * of_place < seen_of_it)) out->count = 0;
+    if (left_out) out->count = 0;
     polygon_release(&polygon);
     free(texels);
     free(samples);

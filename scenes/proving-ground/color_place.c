@@ -6,20 +6,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { W = PROVING_MESH_COLUMNS, H = PROVING_MESH_ROWS };
 #define OFF_M 0.3         /* rays start this far off the surface, whose heights are those of cells */
 #define LEAST_FACING 0.1  /* cosine: flatter, a surface off by centimetres gets the colours of others */
 
-static bool sees(const float *z, struct vec3 p, struct vec3 way, double length)
+static bool sees(const struct place_heights *heights, struct vec3 p, struct vec3 way, double length)
 {
     double step = 0.75 * PROVING_MESH_CELL_M;
     for (double done = 0; done < length; done += step) {
         struct vec3 q = vec3_add(p, vec3_scale(way, done));
         if (q.z > PROVING_HIGHEST_M) return true;
-        int column = (int)floor((q.x - PROVING_MESH_X0_M) / PROVING_MESH_CELL_M);
-        int row = H - 1 - (int)floor((q.y - PROVING_MESH_Y0_M) / PROVING_MESH_CELL_M);
-        if (column < 0 || row < 0 || column >= W || row >= H) return true;
-        if ((double)z[row * W + column] > q.z + 0.05) return false;
+        if (place_heights_solid(heights, q)) return false;
     }
     return true;
 }
@@ -37,7 +33,7 @@ static bool from_photographs(float srgb[3], struct vec3 p, struct vec3 normal, c
         struct vec3 in_camera = pose_apply(pose_inverse(proving_shot_pose(&v->c->shots[i])), p);
         if (!camera_project(v->camera, &q, in_camera, &ignored)) continue;
         if (!(q.x >= 0 && q.y >= 0 && q.x < v->camera->width_px && q.y < v->camera->height_px)) continue;
-        if (!sees(v->heights_m, start, way, length)) continue;
+        if (!sees(v->heights, start, way, length)) continue;
         for (int k = 0; k < 3; k++) sum[k] += image_u8(&v->photographs[i], (int)q.x, (int)q.y)[k];
         n++;
     }
@@ -52,7 +48,7 @@ static bool from_map(float srgb[3], struct vec3 p, struct vec3 normal, const str
         struct vec3 way = vec3_scale(map[i].forward, -1);
         int x, y;
         if (vec3_dot(way, normal) <= most || !map_view_pixel(&map[i], &x, &y, p) ||
-            !sees(v->heights_m, vec3_add(p, vec3_scale(normal, OFF_M)), way, INFINITY))
+            !sees(v->heights, vec3_add(p, vec3_scale(normal, OFF_M)), way, INFINITY))
             continue;
         most = vec3_dot(way, normal);
         const float *radiance = image_f32(&v->map[i], x, y);

@@ -4,10 +4,11 @@
 
 #include "cases.h"
 #include "lib/image.h"
+#include "place_heights.h"
 #include "place_mesh.h"
 
 struct place_views {
-    const float *heights_m;         /* (PROVING_MESH_ROWS, PROVING_MESH_COLUMNS) of the reconstruction, row 0 in the north */
+    const struct place_heights *heights;
     const struct image *map;        /* (PROVING_MAP_VIEWS) F32 radiance, of the mapping flight */
     const struct image *photographs; /* (c->shot_count) U8 3 where c->flies; else NULL */
     const struct proving_case *c;

@@ -13,6 +13,7 @@ scenes_proving_ground_proving_ground_SOURCES = \
   %D%/map_flight.c %D%/map_flight.h \
   %D%/picture.c %D%/picture.h \
   %D%/pinhole.c %D%/pinhole.h \
+  %D%/place_heights.c %D%/place_heights.h \
   %D%/place_mesh.c %D%/place_mesh.h \
   %D%/reconstruct.c %D%/reconstruct.h \
   %D%/table.c \

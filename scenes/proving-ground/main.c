@@ -5,6 +5,7 @@
 #include "map_flight.h"
 #include "picture.h"
 #include "pinhole.h"
+#include "place_heights.h"
 #include "reconstruct.h"
 #include "write_pov.h"
 #include "write_scene.h"
@@ -133,14 +134,25 @@ static bool read_photographs(struct image *photographs, const char *folder, cons
     return ok;
 }
 
+static bool read_kind(struct image *image, const char *folder, const char *kind, const char *extension, struct error *err)
+{
+    char *name = string_format("%s.%s", kind, extension);
+    bool ok = name ? read_part(image, folder, "0", name, err) : error_set(err, ERR_MEMORY, "no memory for a path");
+    free(name);
+    return ok;
+}
+
 static bool read_map(struct image *map, const char *folder, struct error *err)
 {
     bool ok = true;
-    for (int i = 0; ok && i < PROVING_MAP_VIEWS; i++) {
-        char *name = string_format("%s.exr", map_view(i).kind);
-        ok = name ? read_part(&map[i], folder, "0", name, err) : error_set(err, ERR_MEMORY, "no memory for a path");
-        free(name);
-    }
+    for (int i = 0; ok && i < PROVING_MAP_VIEWS; i++) ok = read_kind(&map[i], folder, map_view(i).kind, "exr", err);
+    return ok;
+}
+
+static bool read_heights(struct image *heights, const char *folder, struct error *err)
+{
+    bool ok = true;
+    for (int i = 0; ok && i < HEIGHTS_KINDS; i++) ok = read_kind(&heights[i], folder, place_heights_kinds[i], "png", err);
     return ok;
 }
 
@@ -150,17 +162,17 @@ static bool reconstruct_place(char **a, struct error *err)
     if (!find_case(&c, a[0], err)) return false;
     if (!c->has_mesh) return error_set(err, ERR_INPUT, "%s has no mesh", c->name);
     struct camera camera = camera_of(c);
-    struct image heights = { 0 }, map[PROVING_MAP_VIEWS] = { 0 }, *photographs = calloc(c->shot_count, sizeof *photographs);
+    struct image heights[HEIGHTS_KINDS] = { 0 }, map[PROVING_MAP_VIEWS] = { 0 }, *photographs = calloc(c->shot_count, sizeof *photographs);
     char *path = string_format("%s/place.ply", a[1]);
     bool ok = (photographs && path) || error_set(err, ERR_MEMORY, "no memory for the reconstruction");
-    ok = ok && read_part(&heights, a[1], "0", "heights.png", err) && read_map(map, a[1], err) &&
+    ok = ok && read_heights(heights, a[1], err) && read_map(map, a[1], err) &&
          (!c->flies || read_photographs(photographs, a[1], c, err)) &&
-         reconstruct(path, &heights, map, c->flies ? photographs : NULL, c, &camera, err);
+         reconstruct(path, heights, map, c->flies ? photographs : NULL, c, &camera, err);
     free(path);
     for (size_t i = 0; photographs && i < c->shot_count; i++) image_release(&photographs[i]);
     for (int i = 0; i < PROVING_MAP_VIEWS; i++) image_release(&map[i]);
     free(photographs);
-    image_release(&heights);
+    for (int i = 0; i < HEIGHTS_KINDS; i++) image_release(&heights[i]);
     return ok;
 }
 

@@ -2,6 +2,7 @@
 
 #include "map_flight.h"
 #include "pinhole.h"
+#include "place_heights.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -136,6 +137,22 @@ static void put_height_texture(FILE *f)
             "  color_map { [0 rgb 0] [1 rgb 1] } } finish { emission 1 diffuse 0 } }\n", PROVING_HEIGHT_M);
 }
 
+/* Of the mesh's cells, along z. */
+static void put_cells_camera(FILE *f, bool from_below)
+{
+    double w = PROVING_MESH_COLUMNS * PROVING_MESH_CELL_M, h = PROVING_MESH_ROWS * PROVING_MESH_CELL_M;
+    fprintf(f, "camera { orthographic location <%.9g, %.9g, %d> right %.9g * x up %.9g * y direction %sz }\n",
+            PROVING_MESH_X0_M + w / 2, PROVING_MESH_Y0_M + h / 2, from_below ? -100 : 100, w, h, from_below ? "" : "-");
+}
+
+/* HEIGHTS_KINDS: none. */
+static int heights_of(const char *kind)
+{
+    int i = 0;
+    while (i < HEIGHTS_KINDS && strcmp(kind, place_heights_kinds[i])) i++;
+    return i;
+}
+
 /* The view of the mapping flight of this kind; PROVING_MAP_VIEWS: none. */
 static int map_of(const char *kind)
 {
@@ -149,7 +166,8 @@ static bool put_scene(FILE *f, struct pov_job *job, const char *kind, const stru
 {
     struct pose world_from_camera = proving_shot_pose(&c->shots[shot]);
     size_t alone = !strncmp(kind, "alone-", 6) ? strtoul(kind + 6, NULL, 10) : 0;
-    bool labels = alone || !strcmp(kind, "labels"), heights = !strcmp(kind, "heights"), truth = !strncmp(kind, "truth", 5);
+    int cells = heights_of(kind);
+    bool labels = alone || !strcmp(kind, "labels"), heights = cells < HEIGHTS_KINDS, truth = !strncmp(kind, "truth", 5);
     bool range = !strcmp(kind, "range") || !strcmp(kind, "truth-range"), lit = !labels && !heights && !range;
     int map = map_of(kind);
     bool mapped = map < PROVING_MAP_VIEWS;
@@ -166,9 +184,7 @@ static bool put_scene(FILE *f, struct pov_job *job, const char *kind, const stru
     } else if (heights) {
         job->width_px = PROVING_MESH_COLUMNS;
         job->height_px = PROVING_MESH_ROWS;
-        double w = PROVING_MESH_COLUMNS * PROVING_MESH_CELL_M, h = PROVING_MESH_ROWS * PROVING_MESH_CELL_M;
-        fprintf(f, "camera { orthographic location <%.9g, %.9g, 100> right %.9g * x up %.9g * y direction -z }\n",
-                PROVING_MESH_X0_M + w / 2, PROVING_MESH_Y0_M + h / 2, w, h);
+        put_cells_camera(f, cells == HEIGHTS_BOTTOM);
     } else if (mapped) {
         struct map_view view = map_view(map);
         put_map_camera(f, &view);
@@ -188,7 +204,8 @@ static bool put_scene(FILE *f, struct pov_job *job, const char *kind, const stru
         fputs("#include \"street_matter.inc\"\n", f);
         if (range) fputs("background { rgb 1 }\n", f);
     }
-    if (!alone) fputs("#include \"street.inc\"\nobject { Street }\n", f);
+    const char *all = "object { Street }", *standing = "object { Ground }\nobject { Markings }\nobject { Houses }\nobject { Parked_Cars }";
+    if (!alone) fprintf(f, "#include \"street.inc\"\n%s\n", !heights ? all : cells == HEIGHTS_GROUND ? standing : "object { Trees }");
     if (!truth && !labels) return true;
     fprintf(f, "#declare Shapes_Only = %d;\n#include \"models.inc\"\n", !lit);
     for (size_t i = 1; labels && !alone && i <= proving_entity_count(c); i++)

@@ -10,7 +10,7 @@ enum {
     PROVING_RANGE_M = 600,   /* 65535 in pictures of the distance along the ray, and what is farther */
     PROVING_DEPTH_M = 200,   /* 65535 in the red of label pictures: z of the camera */
     PROVING_ID_SCALE = 256,  /* what green holds for each id there */
-    PROVING_HEIGHT_M = 20,   /* 65535 in the picture of heights, and 0 is -1 m */
+    PROVING_HEIGHT_M = 20,   /* 65535 in pictures of heights, and 0 is -1 m */
 };
 /* The part of the street that was reconstructed, and the side of a cell. */
 #define PROVING_MESH_X0_M (-45.0)
@@ -24,7 +24,7 @@ struct pov_job { int width_px, height_px; bool is_png; };
 /* Write `kind` as a scene: photograph, truth, range, truth-range (through the pinhole, in truths with the entities; whole, so
  * that radiosity takes its samples at the same places); labels (one ray through each pixel's centre, of the place and the
  * entities), alone-N (of entity N alone, in the window that it can cover; of both the picture's first
- * row is to be left out); heights (from above, orthographic), map-* (of map_flight.h). No text names the
+ * row is to be left out); the kinds of place_heights.h (orthographic), map-* (of map_flight.h). No text names the
  * case: those that differ in what the tool is told have the same pictures.
  * In:  camera at the size wanted
  * Out: job, how to render it */
