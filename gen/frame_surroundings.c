@@ -161,6 +161,22 @@ static double circle_radius(const struct frame *f, double radius_m)
     return radius_m;
 }
 
+/* Over a place, what stands near is on the relief, and the sky shows what is beyond. */
+static bool write_panorama(struct pass_surroundings *out, double *circle_m, const struct frame *f, struct panorama_input *in, struct error *err)
+{
+    struct panorama panorama = { 0 }, far = { 0 };
+    if (!panorama_create(&panorama, in, err)) return false;
+    bool ok = write_image(out->sky_map, f, "sky.exr", &panorama.lighting, err) &&
+              write_image(in->place ? out->relief_map : out->mirrored_sky_map, f, "panorama.exr", &panorama.mirrored, err);
+    *circle_m = panorama.radius_m;
+    panorama_release(&panorama);
+    if (!ok || !in->place) return ok;
+    in->beyond_m = HIDDEN_PLACE_REACH_M;
+    ok = panorama_create(&far, in, err) && write_image(out->mirrored_sky_map, f, "far.exr", &far.mirrored, err);
+    panorama_release(&far);
+    return ok;
+}
+
 /* A measured sky has what stands round it. */
 static bool write_sky(struct pass_surroundings *out, const double color_gain[3], const struct frame *f, const struct seen *seen,
                       struct error *err)
@@ -174,18 +190,15 @@ static bool write_sky(struct pass_surroundings *out, const double color_gain[3],
         .told = !f->scene->skyline.assumed, .place = f->stage->mesh,
         .place_depth = &f->labels.place_depth, .color_gain = { color_gain[0], color_gain[1], color_gain[2] },
     };
-    struct panorama panorama;
-    if (!panorama_create(&panorama, &in, err)) return false;
-    bool ok = write_image(out->sky_map, f, "sky.exr", &panorama.lighting, err) &&
-              write_image(out->mirrored_sky_map, f, "panorama.exr", &panorama.mirrored, err);
+    double radius = 0;
+    if (!write_panorama(out, &radius, f, &in, err)) return false;
     out->circle_m = vec3(eye.x, eye.y, ground);
-    if (panorama.radius_m > 0) out->circle_radius_m = circle_radius(f, panorama.radius_m);
-    panorama_release(&panorama);
-    return ok;
+    if (radius > 0) out->circle_radius_m = circle_radius(f, radius);
+    return true;
 }
 
 /* Over a place, what the mirrored map shows stands where it stands. */
-static bool write_relief(struct pass_surroundings *out, const struct frame *f, struct error *err)
+static bool write_relief(struct pass_surroundings *out, const double color_gain[3], const struct frame *f, struct error *err)
 {
     if (!f->stage->mesh) return true;
     struct prism *known = calloc(f->around.n + 1, sizeof *known); /* borrowed */
@@ -196,17 +209,18 @@ static bool write_relief(struct pass_surroundings *out, const struct frame *f, s
         known[in.n] = f->around.receivers[i];
         entities[in.n++] = f->moment.entities[i];
     }
-    struct relief relief;
-    bool found = (known && entities) || error_set(err, ERR_MEMORY, "no memory for a frame");
-    found = found && relief_create(&relief, &in, err);
+    struct relief relief = { 0 };
+    struct hidden_place hidden = { 0 };
+    char hidden_map[SURROUNDINGS_PATH_SIZE], *path = string_format("%s/relief.inc", f->folder);
+    bool ok = (known && entities && path) || error_set(err, ERR_MEMORY, "no memory for a frame");
+    ok = ok && relief_create(&relief, &in, err) && hidden_place_create(&hidden, &in, color_gain, err) &&
+         write_image(hidden_map, f, "hidden.exr", &hidden.radiance, err) && relief_include_write(path, &relief, &hidden, hidden_map, err);
+    snprintf(out->relief_include, SURROUNDINGS_PATH_SIZE, "frames/%s/relief.inc", f->name);
+    relief_release(&relief);
+    hidden_place_release(&hidden);
+    free(path);
     free(entities);
     free(known);
-    if (!found) return false;
-    snprintf(out->relief_include, SURROUNDINGS_PATH_SIZE, "frames/%s/relief.inc", f->name);
-    char *path = string_format("%s/relief.inc", f->folder);
-    bool ok = (path || error_set(err, ERR_MEMORY, "no memory for a path")) && relief_include_write(path, &relief, err);
-    relief_release(&relief);
-    free(path);
     return ok;
 }
 
@@ -246,7 +260,7 @@ bool frame_write_surroundings(struct pass_surroundings *surroundings, struct fra
         return false;
     struct seen seen = seen_of(f, n ? &unhidden : NULL);
     bool ok = write_sun_share(&out, f, &seen, err) && write_ground(&out, color_gain, f, &seen, sight, err) && write_sky(&out, color_gain, f, &seen, err) &&
-              write_relief(&out, f, err) && write_standing(&out, f, &seen, err);
+              write_relief(&out, color_gain, f, err) && write_standing(&out, f, &seen, err);
     image_release(&unhidden);
     if (ok) *surroundings = out;
     else frame_release_surroundings(&out);

@@ -31,6 +31,7 @@ gen_libgen_a_SOURCES = \
   %D%/light/orthophoto.c %D%/light/orthophoto.h \
   %D%/light/panorama.c %D%/light/panorama.h \
   %D%/light/push_pull.c %D%/light/push_pull.h \
+  %D%/light/hidden_place.c %D%/light/hidden_place.h \
   %D%/light/relief.c %D%/light/relief.h \
   %D%/light/seen.c %D%/light/seen.h \
   %D%/light/sky_form.c %D%/light/sky_form.h \

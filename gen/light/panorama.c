@@ -142,17 +142,25 @@ static double mix_picture(struct sight *sight, const struct seen *seen, struct v
     return trust;
 }
 
+/* Where a look begins. */
+static struct vec3 look_from(const struct panorama_input *in, struct vec3 d)
+{
+    struct vec3 beyond = vec3_add(in->from_m, vec3_scale(d, in->beyond_m));
+    return beyond.z > in->seen->world_from_camera.translation.z - in->height_m ? beyond : in->from_m;
+}
+
 /* What the place shows in a direction. False where it is open. */
 static bool of_place(struct sight *sight, const struct panorama_input *in, struct vec3 d)
 {
     struct static_hit hit;
     struct vec2 q;
     float own[3];
-    static_mesh_hits(in->place, &hit, in->from_m, &d, 1);
+    struct vec3 from = look_from(in, d);
+    static_mesh_hits(in->place, &hit, from, &d, 1);
     if (!isfinite(hit.range_m)) return false;
     static_mesh_color(in->place, own, &hit, hit.range_m * 2 * M_PI / WIDTH);
     for (int c = 0; c < 3; c++) sight->rgb[c] = (double)own[c] * in->color_gain[c];
-    struct vec3 p = vec3_add(in->from_m, vec3_scale(d, hit.range_m)), eye = in->seen->world_from_camera.translation;
+    struct vec3 p = vec3_add(from, vec3_scale(d, hit.range_m)), eye = in->seen->world_from_camera.translation;
     if (!seen_project(in->seen, &q, p) || seen_hidden(in->seen, q)) return true;
     struct vec3 to_eye = vec3_sub(eye, p);
     double range = vec3_norm(to_eye);

@@ -30,6 +30,7 @@ struct panorama_input {
     double height_m;                  /* of the camera above the ground */
     bool told;                        /* what stands around was told: a sky that is mirrored from elsewhere does not count before it */
     const struct static_mesh *place;  /* NULL: the ground is a plane */
+    double beyond_m;                  /* what of the place is nearer, above the ground, is not there: what stands behind it is */
     const struct image *place_depth;  /* as orthophoto_input */
     double color_gain[3];             /* as the orthophoto's */
 };

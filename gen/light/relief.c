@@ -14,7 +14,9 @@ _Static_assert(3 * BELOW <= ABOVE, "as low as the panorama has a picture");
 #define POINTS_MAX 4e6
 #define STEEPEST 0.3      /* of what neighbours on the ground rise, as a share of how far apart they are */
 #define HEADROOM_M 1.0    /* over the ground: what hangs higher leaves it ground */
-#define GAP 1.5           /* farther apart than this, as a ratio of ranges, two neighbours are two things */
+/* Two neighbours are one thing where their ranges differ by no more than this ratio, or where each lies on the other's surface: */
+#define GAP 1.1
+#define OFF_SURFACE 0.15  /* no farther off it than this share of the distance between them */
 
 static struct vec3 direction_of(int column, int row)
 {
@@ -115,7 +117,7 @@ static enum shown shown_at(const struct relief_input *in, const struct lattice *
 }
 
 /* The points of a row of directions; a direction's has the number of the direction. */
-static void meet_row(struct relief_part *seen, uint8_t *shown, const struct relief_input *in, const struct lattice *l, int row)
+static void meet_row(struct relief_part *seen, struct vec3 *normal, uint8_t *shown, const struct relief_input *in, const struct lattice *l, int row)
 {
     struct vec3 direction[COLUMNS];
     struct static_hit hit[COLUMNS];
@@ -124,6 +126,7 @@ static void meet_row(struct relief_part *seen, uint8_t *shown, const struct reli
     for (int i = 0; i < COLUMNS; i++) {
         struct vec3 p = isfinite(hit[i].range_m) ? vec3_add(in->from_m, vec3_scale(direction[i], hit[i].range_m)) : vec3(0, 0, 0);
         shown[i] = (uint8_t)shown_at(in, l, &hit[i], p);
+        normal[i] = isfinite(hit[i].range_m) ? static_mesh_normal(in->place, hit[i].triangle) : vec3(0, 0, 0);
         seen->point_m[row * COLUMNS + i] = p;
     }
 }
@@ -133,7 +136,14 @@ static void add_face(struct relief_part *part, int a, int b, int c)
     memcpy(part->triangle[part->triangles++], (uint32_t[]){ (uint32_t)a, (uint32_t)b, (uint32_t)c }, sizeof *part->triangle);
 }
 
-static void add_seen(struct relief_part *seen, const uint8_t *shown, struct vec3 from, int a, int b, int c)
+static bool on_surface(const struct vec3 *point, const struct vec3 *normal, int a, int b)
+{
+    struct vec3 way = vec3_sub(point[b], point[a]);
+    double off = OFF_SURFACE * vec3_norm(way);
+    return fabs(vec3_dot(way, normal[a])) <= off && fabs(vec3_dot(way, normal[b])) <= off;
+}
+
+static void add_seen(struct relief_part *seen, const struct vec3 *normal, const uint8_t *shown, struct vec3 from, int a, int b, int c)
 {
     const int corner[] = { a, b, c };
     double near = INFINITY, far = 0;
@@ -149,7 +159,8 @@ static void add_seen(struct relief_part *seen, const uint8_t *shown, struct vec3
     const struct vec3 *p = seen->point_m;
     /* Along the ground, neighbours lie far apart. */
     bool floor = level == 3 && is_gentle(p[a], p[b]) && is_gentle(p[b], p[c]) && is_gentle(p[c], p[a]);
-    if (ground < 3 && (floor || far <= GAP * near)) add_face(seen, a, b, c);
+    bool one = on_surface(p, normal, a, b) && on_surface(p, normal, b, c) && on_surface(p, normal, c, a);
+    if (ground < 3 && (floor || one || far <= GAP * near)) add_face(seen, a, b, c);
 }
 
 static bool part_init(struct relief_part *part, size_t points)
@@ -162,14 +173,16 @@ static bool part_init(struct relief_part *part, size_t points)
 static bool see(struct relief_part *seen, const struct relief_input *in, const struct lattice *l)
 {
     uint8_t *shown = calloc((size_t)ROWS * COLUMNS, sizeof *shown);
-    bool ok = part_init(seen, (size_t)ROWS * COLUMNS) && shown;
-    for (int row = 0; ok && row < ROWS; row++) meet_row(seen, shown + row * COLUMNS, in, l, row);
+    struct vec3 *normal = calloc((size_t)ROWS * COLUMNS, sizeof *normal);
+    bool ok = part_init(seen, (size_t)ROWS * COLUMNS) && shown && normal;
+    for (int row = 0; ok && row < ROWS; row++) meet_row(seen, normal + row * COLUMNS, shown + row * COLUMNS, in, l, row);
     for (int row = 0; ok && row + 1 < ROWS; row++)
         for (int i = 0; i < COLUMNS; i++) {
             int a = row * COLUMNS + i, b = row * COLUMNS + (i + 1) % COLUMNS;
-            add_seen(seen, shown, in->from_m, a, b, b + COLUMNS);
-            add_seen(seen, shown, in->from_m, a, b + COLUMNS, a + COLUMNS);
+            add_seen(seen, normal, shown, in->from_m, a, b, b + COLUMNS);
+            add_seen(seen, normal, shown, in->from_m, a, b + COLUMNS, a + COLUMNS);
         }
+    free(normal);
     free(shown);
     return ok;
 }

@@ -14,11 +14,11 @@
 struct pass_settings pass_settings(enum quality quality)
 {
     /* +R1 looks at the corners of a pixel only, and blurs by 0.5 px: too much for outlines, not for shadows. */
-    const char *outlines = "+A0.3 +AM2 +R3 -J", *fine_outlines = "+A0.1 +AM2 +R3 -J";
+    const char *outlines = "+A0.1 +AM2 +R3 -J";
     const char *edges = "+A0.03 +AM2 +R1 -J", *fine_edges = "+A0.03 +AM2 +R2 -J", *none = "-A";
     switch (quality) {
     case QUALITY_DRAFT: return (struct pass_settings){ 48, 4, 30, 0.5, 1, none, none };
-    case QUALITY_HIGH: return (struct pass_settings){ 512, 1, 200, 0.2, 2, fine_outlines, fine_edges };
+    case QUALITY_HIGH: return (struct pass_settings){ 512, 1, 200, 0.2, 2, outlines, fine_edges };
     case QUALITY_STANDARD:
     default: return (struct pass_settings){ 128, 2, 50, 0.25, 1.5, outlines, edges };
     }
@@ -53,7 +53,10 @@ static void write_light(struct sdl *sdl, const struct passes *p, bool object)
         sdl_declare_string(sdl, "Mirrored_Sky_Map", around->mirrored_sky_map);
         sdl_declare_vector(sdl, "Seen_From", around->seen_from_m);
     }
-    if (around && around->relief_include[0]) sdl_include(sdl, around->relief_include);
+    if (around && around->relief_include[0]) {
+        sdl_declare_string(sdl, "Relief_Map", around->relief_map);
+        sdl_include(sdl, around->relief_include);
+    }
     if (around && around->circle_radius_m > 0) {
         sdl_declare_vector(sdl, "Circle_Centre", around->circle_m);
         sdl_declare_number(sdl, "Circle_Radius", around->circle_radius_m);

@@ -42,7 +42,8 @@ struct pass_surroundings {
     char sky_map[SURROUNDINGS_PATH_SIZE], mirrored_sky_map[SURROUNDINGS_PATH_SIZE]; /* "": the light's sky */
     struct vec3 seen_from_m, circle_m; /* where the mirrored map is seen from; and the middle, on the ground, of the circle that */
     double circle_radius_m;            /* mirrors see it on; 0: it is as far away as the sky */
-    char relief_include[SURROUNDINGS_PATH_SIZE]; /* of relief_include_write: over a place what the mirrored map shows stands there; "": none */
+    /* Of relief_include_write: over a place what relief_map shows stands there, and the mirrored map shows what is beyond; "": none. */
+    char relief_include[SURROUNDINGS_PATH_SIZE], relief_map[SURROUNDINGS_PATH_SIZE];
     struct pass_standing *standing; /* (standing_count) */
     size_t standing_count;
     struct sun_share sun_share;     /* of all passes */

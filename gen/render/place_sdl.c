@@ -110,12 +110,43 @@ static void write_part(struct sdl *sdl, const char *name, const struct relief_pa
     sdl_end(sdl);
 }
 
-bool relief_include_write(const char *path, const struct relief *relief, struct error *err)
+/* Each face has the middle of its own texel. */
+static void write_hidden(struct sdl *sdl, const struct hidden_place *hidden, const char *map)
+{
+    const struct static_cut *part = &hidden->part;
+    sdl_declare_string(sdl, "Hidden_Place_Map", map);
+    sdl_declare(sdl, "Hidden_Place");
+    sdl_begin(sdl, "mesh2");
+    write_vertices(sdl, part);
+    sdl_begin(sdl, "uv_vectors");
+    sdl_number(sdl, (double)part->triangles);
+    for (size_t i = 0; i < part->triangles; i++) {
+        sdl_comma(sdl);
+        sdl_vector2(sdl, ((double)(i % HIDDEN_PLACE_COLUMNS) + 0.5) / HIDDEN_PLACE_COLUMNS,
+                    1 - ((double)(i / HIDDEN_PLACE_COLUMNS) + 0.5) / hidden->radiance.height_px);
+        if (i % 8 == 7) sdl_newline(sdl);
+    }
+    sdl_end(sdl);
+    mesh_sdl_faces(sdl, part->triangle, part->triangles);
+    sdl_begin(sdl, "uv_indices");
+    sdl_number(sdl, (double)part->triangles);
+    for (size_t i = 0; i < part->triangles; i++) {
+        sdl_comma(sdl);
+        sdl_vector(sdl, vec3((double)i, (double)i, (double)i));
+        if (i % 8 == 7) sdl_newline(sdl);
+    }
+    sdl_end(sdl);
+    sdl_end(sdl);
+}
+
+bool relief_include_write(const char *path, const struct relief *relief, const struct hidden_place *hidden, const char *hidden_map,
+                          struct error *err)
 {
     struct sdl sdl;
     sdl_init(&sdl);
     sdl_header(&sdl, "the place as mirrors meet it, seen from among the entities of a frame: metres, world");
     write_part(&sdl, "Relief", &relief->seen);
     write_part(&sdl, "Relief_Ground", &relief->ground);
+    if (hidden && hidden->part.triangles) write_hidden(&sdl, hidden, hidden_map);
     return write_include(&sdl, path, err);
 }

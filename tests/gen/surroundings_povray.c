@@ -95,9 +95,10 @@ static bool render(struct image *pass, const struct light *light, const struct e
             around.circle_radius_m = circle.radius_m;
             if (circle.relief) {
                 char *relief = string_format("%s/relief.inc", folder);
-                ok = ok && relief_include_write(relief, circle.relief, &err);
+                ok = ok && relief_include_write(relief, circle.relief, NULL, NULL, &err);
                 free(relief);
                 strcpy(around.relief_include, "frames/relief.inc");
+                strcpy(around.relief_map, around.mirrored_sky_map);
             }
         }
         p.surroundings = &around;
