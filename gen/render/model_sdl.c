@@ -112,6 +112,54 @@ static void write_mesh(struct sdl *sdl, const struct mesh *mesh, bool textured)
     mesh_sdl_faces(sdl, mesh->triangle, mesh->triangles);
 }
 
+/* What has gone through glass POV-Ray takes for a part of the picture, whatever ray it was: where the sky is not in the picture, it
+ * would light nothing behind glass. So radiosity's rays do not meet the glass there, but a screen in its place, black: as much of
+ * its faces as the glass keeps back. */
+#define SCREENS "Glass_Screens"
+#define ENTERS 0.91 /* of a hemisphere's light, what no surface of glass reflects; Src: Walter and others 2007, for 1.5 */
+
+static double face_area(const struct mesh *mesh, const uint32_t triangle[3])
+{
+    struct vec3 p[3];
+    for (int k = 0; k < 3; k++) {
+        const float *v = mesh->position_m[triangle[k]];
+        p[k] = vec3((double)v[0], (double)v[1], (double)v[2]);
+    }
+    return vec3_norm(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0])));
+}
+
+static bool write_screen(struct sdl *sdl, const struct mesh *mesh, double kept, struct error *err)
+{
+    uint32_t (*triangle)[3] = malloc((mesh->triangles + 1) * sizeof *triangle);
+    size_t n = 0;
+    double due = 0;
+    if (!triangle) return error_set(err, ERR_MEMORY, "no memory for a model");
+    for (size_t i = 0; i < mesh->triangles; i++) {
+        double area = face_area(mesh, mesh->triangle[i]);
+        due += kept * area;
+        if (due < area / 2) continue;
+        due -= area;
+        memcpy(triangle[n++], mesh->triangle[i], sizeof *triangle);
+    }
+    if (n) {
+        struct mesh screen = *mesh;
+        screen.triangle = triangle;
+        screen.triangles = n;
+        sdl_begin(sdl, "mesh2");
+        write_mesh(sdl, &screen, false);
+        sdl_begin(sdl, "pigment");
+        sdl_word(sdl, "rgb");
+        sdl_number(sdl, 0);
+        sdl_end(sdl);
+        sdl_word(sdl, "no_image");
+        sdl_word(sdl, "no_reflection");
+        sdl_word(sdl, "no_shadow");
+        sdl_end(sdl);
+    }
+    free(triangle);
+    return true;
+}
+
 void include_set_release(struct include_set *set)
 {
     free(set->names);
@@ -167,7 +215,17 @@ bool model_include_write(const struct model_include *include, struct include_set
         write_finish(&sdl, material);
         sdl_end(&sdl);
         if (shape_tells) sdl_endif(&sdl);
+        bool is_glass = transmittance(material) > 0 && !textured;
+        if (is_glass) {
+            sdl_ifdef(&sdl, SCREENS);
+            sdl_word(&sdl, "no_radiosity");
+            sdl_endif(&sdl);
+        }
         sdl_end(&sdl);
+        if (!is_glass) continue;
+        sdl_ifdef(&sdl, SCREENS);
+        ok = ok && write_screen(&sdl, mesh, 1 - ENTERS * transmittance(material), err);
+        sdl_endif(&sdl);
     }
     sdl_end(&sdl);
     char *path = string_format("%s/%s", out_folder, include->path), *folder = path ? path_folder(path) : NULL;

@@ -222,6 +222,13 @@ void sdl_if(struct sdl *sdl, const char *name)
     append(sdl, ")\n", 2);
 }
 
+void sdl_ifdef(struct sdl *sdl, const char *name)
+{
+    directive(sdl, "#ifdef (");
+    sdl_word(sdl, name);
+    append(sdl, ")\n", 2);
+}
+
 void sdl_else(struct sdl *sdl)
 {
     directive(sdl, "#else\n");

@@ -50,6 +50,7 @@ void sdl_declare_color(struct sdl *sdl, const char *name, const double rgb[3]);
 void sdl_declare_string(struct sdl *sdl, const char *name, const char *value);
 /* `#if (NAME)` ... `#else` ... `#end` */
 void sdl_if(struct sdl *sdl, const char *name);
+void sdl_ifdef(struct sdl *sdl, const char *name);
 void sdl_else(struct sdl *sdl);
 void sdl_endif(struct sdl *sdl);
 /* `matrix <...>`: POV-Ray multiplies rows, so the rotation is written transposed. */
