@@ -147,6 +147,11 @@ tests_gen_relief_test_SOURCES = %D%/gen/relief.c %D%/gen/place.h %D%/gen/solid.h
 nodist_EXTRA_tests_gen_relief_test_SOURCES = dummy.cxx
 tests_gen_relief_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/hidden_place.test
+tests_gen_hidden_place_test_SOURCES = %D%/gen/hidden_place.c %D%/gen/place.h %D%/tap.h
+nodist_EXTRA_tests_gen_hidden_place_test_SOURCES = dummy.cxx
+tests_gen_hidden_place_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/push_pull.test
 tests_gen_push_pull_test_SOURCES = %D%/gen/push_pull.c %D%/tap.h
 nodist_EXTRA_tests_gen_push_pull_test_SOURCES = dummy.cxx

@@ -14,6 +14,7 @@ struct place {
     uint32_t (*triangle)[3];
     uint8_t *label; /* (triangles) */
     size_t vertices, triangles;
+    void (*paint)(uint8_t srgb[3], const float p[3]); /* a vertex; NULL: all is grey, 128 */
 };
 
 __attribute__((unused))
@@ -70,6 +71,21 @@ static void place_wall(struct place *place, double x0, double x1, double y, doub
     place_quad(place, (const double[4][3]){ { x0, y, z0 }, { x1, y, z0 }, { x1, y, z1 }, { x0, y, z1 } }, label);
 }
 
+/* Add a parallelogram of quadrilaterals, columns along one side and rows along the other. */
+__attribute__((unused))
+static void place_grid(struct place *place, struct vec3 corner, struct vec3 column, struct vec3 row, int columns, int rows)
+{
+    for (int y = 0; y < rows; y++)
+        for (int x = 0; x < columns; x++) {
+            double quad[4][3];
+            for (int i = 0; i < 4; i++) {
+                struct vec3 p = vec3_add(corner, vec3_add(vec3_scale(column, x + (i == 1 || i == 2)), vec3_scale(row, y + (i > 1))));
+                memcpy(quad[i], (double[]){ p.x, p.y, p.z }, sizeof quad[i]);
+            }
+            place_quad(place, (const double(*)[3])quad, 0);
+        }
+}
+
 /* The mesh, searchable, by way of a PLY file. */
 __attribute__((unused))
 static bool place_mesh(struct static_mesh **mesh, const struct place *place, bool labels, struct error *err)
@@ -82,9 +98,12 @@ static bool place_mesh(struct static_mesh **mesh, const struct place *place, boo
                "property uchar red\nproperty uchar green\nproperty uchar blue\n"
                "element face %zu\nproperty list uchar uint vertex_indices\n%send_header\n",
             place->vertices, place->triangles, labels ? "property uchar label\n" : "");
-    for (size_t i = 0; i < place->vertices; i++)
-        fprintf(f, "%.9g %.9g %.9g 128 128 128\n", (double)place->vertex[i][0], (double)place->vertex[i][1],
-                (double)place->vertex[i][2]);
+    for (size_t i = 0; i < place->vertices; i++) {
+        const float *p = place->vertex[i];
+        uint8_t srgb[3] = { 128, 128, 128 };
+        if (place->paint) place->paint(srgb, p);
+        fprintf(f, "%.9g %.9g %.9g %u %u %u\n", (double)p[0], (double)p[1], (double)p[2], srgb[0], srgb[1], srgb[2]);
+    }
     for (size_t i = 0; i < place->triangles; i++) {
         fprintf(f, "3 %u %u %u", place->triangle[i][0], place->triangle[i][1], place->triangle[i][2]);
         if (labels) fprintf(f, " %u", place->label[i]);
