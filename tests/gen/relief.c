@@ -18,6 +18,14 @@ static bool upright_at(const struct relief_part *r, const uint32_t triangle[3], 
     return true;
 }
 
+/* Is a corner, above the ground, on that plane? */
+static bool stands_at(const struct relief_part *r, const uint32_t triangle[3], double at)
+{
+    for (int k = 0; k < 3; k++)
+        if (fabs(r->point_m[triangle[k]].y - at) <= 1e-4 && r->point_m[triangle[k]].z > 1e-4) return true;
+    return false;
+}
+
 static double highest(const struct relief_part *r, const uint32_t triangle[3])
 {
     return fmax(fmax(r->point_m[triangle[0]].z, r->point_m[triangle[1]].z), r->point_m[triangle[2]].z);
@@ -31,6 +39,67 @@ static double nearest_y(const struct relief_part *r, const uint32_t triangle[3])
 static double farthest_y(const struct relief_part *r, const uint32_t triangle[3])
 {
     return fmax(fmax(r->point_m[triangle[0]].y, r->point_m[triangle[1]].y), r->point_m[triangle[2]].y);
+}
+
+/* A board 2 m before a wall, 8 m away: ranges differ by a quarter. */
+static void test_gap(void)
+{
+    struct error err = ERROR_NONE;
+    struct place place = { 0 };
+    struct static_mesh *mesh = NULL;
+    struct relief r;
+    const double board_y = 8, wall_y = 10;
+    place_ground(&place, 0, 0);
+    place_wall(&place, -20, 20, wall_y, 0, 9, 0);
+    place_wall(&place, -1, 1, board_y, 0, 5, 0);
+    struct relief_input in = { .from_m = { 0, 0, 1 } };
+    if (!OK(place_mesh(&mesh, &place, false, &err), "a board near a wall")) return;
+    in.place = mesh;
+    if (OK(relief_create(&r, &in, &err), "its relief: %s", err.text)) {
+        size_t wall = 0, board = 0, between = 0;
+        for (size_t i = 0; i < r.seen.triangles; i++) {
+            const uint32_t *t = r.seen.triangle[i];
+            wall += upright_at(&r.seen, t, wall_y);
+            board += upright_at(&r.seen, t, board_y);
+            between += stands_at(&r.seen, t, board_y) && stands_at(&r.seen, t, wall_y);
+        }
+        OK(wall > 200 && board > 30, "both stand where they stand (%zu and %zu faces)", wall, board);
+        OK(between == 0, "nothing spans the 2 m between them (%zu)", between);
+        relief_release(&r);
+    }
+    static_mesh_destroy(mesh);
+    place_free(&place);
+}
+
+/* A wall that goes away 2 m beside the look: neighbours on it are up to half as far again as each other. */
+static void test_grazing(void)
+{
+    struct error err = ERROR_NONE;
+    struct place place = { 0 };
+    struct static_mesh *mesh = NULL;
+    struct relief r;
+    place_ground(&place, 0, 0);
+    place_quad(&place, (const double[4][3]){ { 2, 3, 0 }, { 2, 60, 0 }, { 2, 60, 8 }, { 2, 3, 8 } }, 0);
+    struct relief_input in = { .from_m = { 0, 0, 1 } };
+    if (!OK(place_mesh(&mesh, &place, false, &err), "a wall along the look")) return;
+    in.place = mesh;
+    if (OK(relief_create(&r, &in, &err), "its relief: %s", err.text)) {
+        double near = INFINITY, far = 0, whole = 0; /* of the faces that stand on the row of level looks */
+        for (size_t i = 0; i < r.seen.triangles; i++) {
+            const struct vec3 *p = r.seen.point_m;
+            struct vec3 a = p[r.seen.triangle[i][0]], b = p[r.seen.triangle[i][1]], c = p[r.seen.triangle[i][2]];
+            if (fabs(a.x - 2) + fabs(b.x - 2) + fabs(c.x - 2) > 1e-4 || fabs(a.z - 1) + fabs(b.z - 1) > 1e-4 || !(c.z > 1)) continue;
+            near = fmin(near, fmin(a.y, b.y));
+            far = fmax(far, fmax(a.y, b.y));
+            whole += fabs(a.y - b.y);
+        }
+        /* A step is 1.4 degrees: the last look that meets it does so 41 m away. */
+        OK(near < 3.2 && far > 40, "it stands from its near end to where looks meet it last (%.2f m to %.2f m)", near, far);
+        NEAR(whole, far - near, 1e-3, "without a gap");
+        relief_release(&r);
+    }
+    static_mesh_destroy(mesh);
+    place_free(&place);
 }
 
 int main(void)
@@ -93,5 +162,7 @@ int main(void)
     static_mesh_destroy(mesh);
     place_free(&place);
     solid_free(&box);
+    test_gap();
+    test_grazing();
     return tap_done();
 }
