@@ -205,6 +205,47 @@ static void over_a_place(const struct light *light)
     image_release(&depth);
 }
 
+/* A board 3 m ahead of the body, red in the picture, and a wall 30 m ahead. */
+static void beyond(const struct light *light)
+{
+    struct error err = ERROR_NONE;
+    struct panorama p;
+    struct place place = { 0 };
+    struct static_mesh *mesh = NULL;
+    struct image depth = { 0 };
+    struct seen seen = { .picture = &picture, .camera = &camera, .world_from_camera = level, .k = { 0.5, 0.5, 0.5 } };
+    seen_init(&seen);
+    struct panorama_input in = input(&seen, light);
+    place_ground(&place, 0, 0);
+    place_wall(&place, -1, 1, 13, 0, 6, 0);
+    place_wall(&place, -30, 30, 40, 0, 12, 0);
+    fill_px(&picture, 0, 0, WIDTH, HEIGHT, 0.1, 0.1, 0.1);
+    fill_px(&picture, 184, 150, 216, 243, 0.4, 0.1, 0.1);
+    if (!OK(place_mesh(&mesh, &place, false, &err) && image_init(&depth, WIDTH, HEIGHT, 1, PIXEL_F32, &err), "a board before a wall")) return;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            bool board = x >= 184 && x < 216 && y >= 150 && y < 243;
+            *image_f32(&depth, x, y) = board ? 13 : y < 180 ? 40 : 1200.0f / ((float)y - 149.5f);
+        }
+    in.place = mesh;
+    in.place_depth = &depth;
+    if (OK(panorama_create(&p, &in, &err), "all of it")) {
+        near_radiance(&p.mirrored, 90, 5, 0.8, 0.2, 0.2, "the board is there");
+        panorama_release(&p);
+    }
+    in.beyond_m = 20;
+    if (OK(panorama_create(&p, &in, &err), "what is 20 m away and more")) {
+        near_radiance(&p.mirrored, 90, 5, 0.43172, 0.43172, 0.43172, "in place of the board is the wall behind it, in the mesh's colour");
+        near_radiance(&p.mirrored, 90, -2.5, 0.43172, 0.43172, 0.43172, "and the ground behind it");
+        near_radiance(&p.mirrored, 120, 5, 0.2, 0.2, 0.2, "beside it the wall is as the picture shows it");
+        near_radiance(&p.mirrored, 60, -20, 0.2, 0.2, 0.2, "ground stays, though it is nearer");
+        panorama_release(&p);
+    }
+    static_mesh_destroy(mesh);
+    place_free(&place);
+    image_release(&depth);
+}
+
 /* The place ends 30 m before the camera, 40 px below the horizon: what the picture shows past it is as far as the sky. */
 static void past_a_place(const struct light *light)
 {
@@ -264,6 +305,7 @@ int main(void)
     over_a_plane(&light);
     over_a_place(&light);
     past_a_place(&light);
+    beyond(&light);
     with_a_skyline(&scene);
     image_release(&picture);
     light_release(&light);
