@@ -20,7 +20,8 @@ static struct scene scene = {
 };
 
 /* What stands around, when it has a picture. */
-static struct { struct image map; struct vec3 from_m, centre_m; double radius_m; const struct relief *relief; } circle;
+static struct { struct image map; struct vec3 from_m, centre_m; double radius_m; const struct relief *relief;
+                const struct hidden_place *hidden; } circle;
 
 /* Of radius 1, its middle at `middle`. */
 static void ball(struct solid *solid)
@@ -94,9 +95,11 @@ static bool render(struct image *pass, const struct light *light, const struct e
             around.circle_m = circle.centre_m;
             around.circle_radius_m = circle.radius_m;
             if (circle.relief) {
-                char *relief = string_format("%s/relief.inc", folder);
-                ok = ok && relief_include_write(relief, circle.relief, NULL, NULL, &err);
+                char *relief = string_format("%s/relief.inc", folder), *hidden = string_format("%s/hidden.exr", folder);
+                ok = ok && (!circle.hidden || image_write(hidden, &circle.hidden->radiance, &err)) &&
+                     relief_include_write(relief, circle.relief, circle.hidden, "frames/hidden.exr", &err);
                 free(relief);
+                free(hidden);
                 strcpy(around.relief_include, "frames/relief.inc");
                 strcpy(around.relief_map, around.mirrored_sky_map);
             }
@@ -178,6 +181,19 @@ static double red_at(const struct image *pass, int x, int y)
     return p[3] >= 1 && p[0] > 2 * p[1] ? (double)(p[0] - p[1]) : 0;
 }
 
+/* The middle of what is red. Returns how red it is, in all. */
+static double red_middle(struct vec2 *middle_px, const struct image *pass)
+{
+    double sum = 0, sx = 0, sy = 0;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            double redness = red_at(pass, x, y);
+            sum += redness, sx += redness * (x + 0.5), sy += redness * (y + 0.5);
+        }
+    *middle_px = (struct vec2){ sx / sum, sy / sum };
+    return sum;
+}
+
 static void test_mirror(const struct light *light, struct entity *entity, struct image *picture, struct vec3 marker)
 {
     struct image pass = { 0 };
@@ -191,16 +207,10 @@ static void test_mirror(const struct light *light, struct entity *entity, struct
                 fill_px(picture, x, y, x + 1, y + 1, 0.7 * e[0], 0.05 * e[1], 0.05 * e[2]);
         }
     if (!OK(render(&pass, light, entity, picture, NULL), "a mirror ball over a marker at (%g, %g)", marker.x, marker.y)) return;
-    double sum = 0, sx = 0, sy = 0;
-    for (int y = 0; y < HEIGHT; y++)
-        for (int x = 0; x < WIDTH; x++) {
-            double redness = red_at(&pass, x, y);
-            sum += redness, sx += redness * (x + 0.5), sy += redness * (y + 0.5);
-        }
-    struct vec2 want = mirrored_at(marker);
-    OK(sum > 0, "the ball shows it");
-    NEAR(sx / sum, want.x, 1, "where its mirror image is, across");
-    NEAR(sy / sum, want.y, 1, "and down");
+    struct vec2 want = mirrored_at(marker), got;
+    OK(red_middle(&got, &pass) > 0, "the ball shows it");
+    NEAR(got.x, want.x, 1, "where its mirror image is, across");
+    NEAR(got.y, want.y, 1, "and down");
     image_release(&pass);
 }
 
@@ -263,17 +273,14 @@ static void test_circle(const struct light *light, struct entity *entity, struct
             for (int c = 0; c < 3; c++) image_f32(&circle.map, x, y)[c] = c && red ? 0.01f : 0.5f;
         }
     fill_px(picture, 0, 0, WIDTH, HEIGHT, 0.2, 0.2, 0.2);
-    double sum = 0, sx = 0, sy = 0;
+    struct vec2 got = { 0, 0 };
+    double sum = 0;
     if (OK(render(&pass, light, entity, picture, NULL), "a mirror ball %s", place ? "before a wall" : radius_m > 0 ? "on a circle" : "below a far sky"))
-        for (int y = 0; y < HEIGHT; y++)
-            for (int x = 0; x < WIDTH; x++) {
-                double redness = red_at(&pass, x, y);
-                sum += redness, sx += redness * (x + 0.5), sy += redness * (y + 0.5);
-            }
+        sum = red_middle(&got, &pass);
     struct vec2 want = mirrored_at(radius_m > 0 || place ? disc : vec3_add(middle, vec3_scale(vec3_sub(disc, circle.from_m), 1000)));
     OK(sum > 0, "the ball shows the disc");
-    NEAR(sx / sum, want.x, 0.7, "%s, across", radius_m > 0 || place ? "where it stands" : "as far away as the sky it is in its direction");
-    NEAR(sy / sum, want.y, 0.7, "and down");
+    NEAR(got.x, want.x, 0.7, "%s, across", radius_m > 0 || place ? "where it stands" : "as far away as the sky it is in its direction");
+    NEAR(got.y, want.y, 0.7, "and down");
     image_release(&pass);
     image_release(&circle.map);
     relief_release(&relief);
@@ -286,6 +293,55 @@ static void test_relief(const struct light *light, struct entity *entity, struct
     struct static_mesh *mesh = NULL;
     place_wall(&place, -40, 60, eye.y - sqrt(0.75) * 20, 0, 20, 0);
     if (OK(place_mesh(&mesh, &place, false, &err), "a wall")) test_circle(light, entity, picture, 0, mesh);
+    static_mesh_destroy(mesh);
+    place_free(&place);
+}
+
+/* Red from (-1, 1) to (2, 4), across and up. */
+static void paint_red(uint8_t srgb[3], const float p[3])
+{
+    bool red = p[0] >= -1 && p[0] <= 2 && p[2] >= 1 && p[2] <= 4;
+    memcpy(srgb, red ? (uint8_t[]){ 220, 10, 10 } : (uint8_t[]){ 128, 128, 128 }, 3);
+}
+
+/* A board hides a red part of a wall from the look round the place, and not from the ball. */
+static void test_hidden(const struct light *light, struct entity *entity, struct image *picture)
+{
+    const double wall_y = -4, gain[3] = { 1, 1, 1 };
+    struct error err = ERROR_NONE;
+    struct place place = { .paint = paint_red };
+    struct static_mesh *mesh = NULL;
+    struct relief relief = { 0 };
+    struct hidden_place hidden = { 0 };
+    struct image pass = { 0 };
+    struct vec2 got;
+    place_grid(&place, vec3(-5, wall_y, 0), vec3(0.25, 0, 0), vec3(0, 0, 0.25), 60, 28);
+    place_wall(&place, 3.2, 4.3, 1, 0, 2.2, 0);
+    struct relief_input in = { .from_m = { 5, 3, 1 }, .entities = entity, .n = 1 };
+    bool ok = place_mesh(&mesh, &place, false, &err) && image_init(&circle.map, 512, 256, 3, PIXEL_F32, &err);
+    in.place = mesh;
+    if (!OK(ok && relief_create(&relief, &in, &err) && hidden_place_create(&hidden, &in, gain, &err), "a wall behind a board")) return;
+    for (size_t i = 0; i < 3 * 512 * 256; i++) ((float *)circle.map.data)[i] = 0.5f;
+    circle.from_m = in.from_m;
+    circle.radius_m = 0;
+    circle.relief = &relief;
+    fill_px(picture, 0, 0, WIDTH, HEIGHT, 0.2, 0.2, 0.2);
+    OK(render(&pass, light, entity, picture, NULL) && !(red_middle(&got, &pass) > 0), "what the look does not meet is on no relief");
+    image_release(&pass);
+    circle.hidden = &hidden;
+    OK(render(&pass, light, entity, picture, NULL) && red_middle(&got, &pass) > 0, "told, it is mirrored");
+    for (int i = 0; i < 9; i++) {
+        double across = i % 3 - 1, up = i / 3 - 1;
+        struct vec2 q = mirrored_at(vec3(0.5 + 1.2 * across, wall_y, 2.5 + 1.2 * up));
+        struct vec2 beside = mirrored_at(vec3(0.5 + 2.1 * across, wall_y, 2.5 + 2.1 * up));
+        OK(red_at(&pass, (int)q.x, (int)q.y) > 0, "where it stands, %g m to the right, %g m up", 1.2 * across, 1.2 * up);
+        if (i != 4) OK(!(red_at(&pass, (int)beside.x, (int)beside.y) > 0), "and not beside it");
+    }
+    circle.relief = NULL, circle.hidden = NULL;
+    image_release(&pass);
+    image_release(&circle.map);
+    hidden_place_release(&hidden);
+    relief_release(&relief);
     static_mesh_destroy(mesh);
     place_free(&place);
 }
@@ -311,6 +367,7 @@ int main(void)
     test_circle(&light, &entity, &picture, 20, NULL);
     test_circle(&light, &entity, &picture, 0, NULL);
     test_relief(&light, &entity, &picture);
+    test_hidden(&light, &entity, &picture);
     image_release(&picture);
     light_release(&light);
     solid_free(&white);
