@@ -142,11 +142,12 @@ static double mix_picture(struct sight *sight, const struct seen *seen, struct v
     return trust;
 }
 
-/* Where a look begins. */
+/* Where a look begins: above the ground. */
 static struct vec3 look_from(const struct panorama_input *in, struct vec3 d)
 {
-    struct vec3 beyond = vec3_add(in->from_m, vec3_scale(d, in->beyond_m));
-    return beyond.z > in->seen->world_from_camera.translation.z - in->height_m ? beyond : in->from_m;
+    double above_m = in->from_m.z - (in->seen->world_from_camera.translation.z - in->height_m) - OFF_PLACE_M, way = in->beyond_m;
+    if (d.z < 0) way = fmin(way, fmax(0, above_m / -d.z));
+    return vec3_add(in->from_m, vec3_scale(d, way));
 }
 
 /* What the place shows in a direction. False where it is open. */
