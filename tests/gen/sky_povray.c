@@ -17,8 +17,38 @@ static struct vec3 normal_of(int plane)
     return vec3(sin(tilt) * cos(turn), sin(tilt) * sin(turn), cos(tilt));
 }
 
-/* White squares of 1.4 m far above the ground, so that they shade little of it. */
-static struct model planes_model(struct material *material, struct mesh *mesh)
+#define GLASS_M 120.0      /* a box round planes and camera, so that these are not seen through it */
+#define GLASS_T 0.72
+#define GLASS_SHARE 0.91   /* of an even hemisphere that glass of index 1.5 does not reflect at one surface; Walter and others 2007 */
+enum { CELLS = 36, SIDE_VERTICES = (CELLS + 1) * (CELLS + 1), SIDE_TRIANGLES = 2 * CELLS * CELLS };
+
+/* A closed box, in faces so small that what is kept of them is spread over all directions. */
+static struct mesh glass_box(void)
+{
+    static float position[6 * SIDE_VERTICES][3], normal[6 * SIDE_VERTICES][3];
+    static uint32_t triangle[6 * SIDE_TRIANGLES][3];
+    size_t n = 0;
+    for (int i = 0; i < 6 * SIDE_VERTICES; i++) {
+        int axis = i / SIDE_VERTICES / 2, cell = i % SIDE_VERTICES;
+        float sign = i / SIDE_VERTICES % 2 ? 1 : -1, half = (float)GLASS_M;
+        position[i][axis] = sign * half;
+        position[i][(axis + 1) % 3] = half * (float)(2 * (cell % (CELLS + 1)) - CELLS) / CELLS;
+        position[i][(axis + 2) % 3] = half * (float)(2 * (cell / (CELLS + 1)) - CELLS) / CELLS;
+        position[i][2] = position[i][2] / 2 + (float)(ABOVE_M + GLASS_M / 2 - 10);
+        normal[i][axis] = sign;
+    }
+    for (int i = 0; i < 6 * CELLS * CELLS; i++) {
+        int side = i / (CELLS * CELLS), row = i / CELLS % CELLS, column = i % CELLS;
+        uint32_t a = (uint32_t)(side * SIDE_VERTICES + row * (CELLS + 1) + column), below = a + CELLS + 1;
+        memcpy(triangle[n++], (uint32_t[3]){ a, a + 1, below + 1 }, sizeof *triangle);
+        memcpy(triangle[n++], (uint32_t[3]){ a, below + 1, below }, sizeof *triangle);
+    }
+    return (struct mesh){ .position_m = position, .normal = normal, .triangle = triangle, .vertices = 6 * SIDE_VERTICES, .triangles = n,
+                          .material = 1 };
+}
+
+/* White squares of 1.4 m far above the ground, so that they shade little of it. In: in_glass  the box, too. Out: materials, meshes (2) */
+static struct model planes_model(struct material *materials, struct mesh *meshes, bool in_glass)
 {
     static float position[4 * PLANES][3], normal[4 * PLANES][3];
     static uint32_t triangle[2 * PLANES][3];
@@ -34,10 +64,18 @@ static struct model planes_model(struct material *material, struct mesh *mesh)
             for (int corner = 0; corner < 3; corner++)
                 triangle[2 * i + k][corner] = (uint32_t)(4 * i + (corner == 0 ? 0 : corner + k));
     }
-    material_default(material);
-    *mesh = (struct mesh){ .position_m = position, .normal = normal, .triangle = triangle, .vertices = 4 * PLANES, .triangles = 2 * PLANES };
-    return (struct model){ .meshes = mesh, .mesh_count = 1, .materials = material, .material_count = 1,
+    material_default(&materials[0]);
+    material_default(&materials[1]);
+    materials[1].kind = FINISH_GLASS;
+    materials[1].transmission = GLASS_T;
+    meshes[0] = (struct mesh){ .position_m = position, .normal = normal, .triangle = triangle, .vertices = 4 * PLANES, .triangles = 2 * PLANES };
+    struct model model = { .meshes = meshes, .mesh_count = 1, .materials = materials, .material_count = 2,
                            .min_m = { -60, -3, ABOVE_M - 3 }, .max_m = { 60, 3, ABOVE_M + 3 } };
+    if (!in_glass) return model;
+    meshes[model.mesh_count++] = glass_box();
+    model.min_m = vec3(-GLASS_M, -GLASS_M, ABOVE_M - 10);
+    model.max_m = vec3(GLASS_M, GLASS_M, ABOVE_M + GLASS_M - 10);
+    return model;
 }
 
 /* Mean of the pixels that a plane fills. */
@@ -63,13 +101,15 @@ static bool mean_of(double rgb[3], const struct image *object, int plane)
 
 static char out[] = "sky_povray.XXXXXX";
 
-/* The object pass: the sky by radiosity, the sun, and the ground that bounces both. In: level  what level ground receives, NAN: not known */
-static void check_object_pass(const struct scene *scene, const struct light *light, const char *name, double level)
+/* The object pass: the sky by radiosity, the sun, and the ground that bounces both. In: level  what level ground receives, NAN: not known;
+ * in_glass  all of it comes through glass */
+static void check_object_pass(const struct scene *scene, const struct light *light, const char *name, double level, bool in_glass)
 {
     struct error err = ERROR_NONE;
-    struct material material;
-    struct mesh mesh;
-    struct model model = planes_model(&material, &mesh);
+    struct material materials[2];
+    struct mesh meshes[2];
+    struct model model = planes_model(materials, meshes, in_glass);
+    double share = in_glass ? GLASS_SHARE * GLASS_T : 1, within = in_glass ? 0.1 : 0.02;
     struct entity entity = { .id = 1, .name = "planes", .model_name = "planes", .class_ = CLASS_OTHER, .model = &model,
                              .world_from_entity = entity_stand(&scene->ground, vec3(0, 0, 0), M_PI / 2) };
     /* North is up in the picture, the planes lie from west to east: an entity that heads east has its axes the world's. */
@@ -94,8 +134,8 @@ static void check_object_pass(const struct scene *scene, const struct light *lig
             if (i == 0 && isfinite(level))
                 NEAR(got[1], level, 0.02 * level, "%s: level ground receives what an integral by hand says (%+.2f %%)", name, 100 * (got[1] / level - 1));
             for (int c = 0; c < 3; c++)
-                NEAR(got[c], want[c], 0.02 * want[c], "%s: plane %d receives what the integral says, channel %d (%+.2f %%)", name, i,
-                     c, 100 * (got[c] / want[c] - 1));
+                NEAR(got[c], share * want[c], within * share * want[c], "%s: plane %d receives what the integral says, channel %d (%+.2f %%)",
+                     name, i, c, 100 * (got[c] / (share * want[c]) - 1));
         }
     else
         printf("# %s %s; %s/povray.log\n", err.file, err.text, out);
@@ -174,7 +214,8 @@ int main(void)
         double line[1][2] = { { 0, skies[i].skyline_rad } };
         scene.skyline = (struct scene_skyline){ .point_rad = line, .count = skies[i].skyline_rad > 0, .albedo = { 0.3, 0.3, 0.25 } };
         if (!OK(light_create(&light, &scene, &err), "%s: a light", skies[i].name)) continue;
-        check_object_pass(&scene, &light, skies[i].name, skies[i].sky == SKY_OVERCAST ? between_walls(skies[i].skyline_rad, 0.3, 0.2) : NAN);
+        check_object_pass(&scene, &light, skies[i].name, skies[i].sky == SKY_OVERCAST ? between_walls(skies[i].skyline_rad, 0.3, 0.2) : NAN, false);
+        if (i == 1) check_object_pass(&scene, &light, "overcast, in glass", NAN, true);
         scene.quality = QUALITY_STANDARD;
         check_lights(&light, pass_settings(scene.quality).sky_directions, skies[i].name);
         light_release(&light);
