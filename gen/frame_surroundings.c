@@ -162,13 +162,13 @@ static double circle_radius(const struct frame *f, double radius_m)
 }
 
 /* Over a place, what stands near is on the relief, and the sky shows what is beyond. */
-static bool write_panorama(struct pass_surroundings *out, double *circle_m, const struct frame *f, struct panorama_input *in, struct error *err)
+static bool write_panorama(struct pass_surroundings *out, double *radius_m, const struct frame *f, struct panorama_input *in, struct error *err)
 {
     struct panorama panorama = { 0 }, far = { 0 };
     if (!panorama_create(&panorama, in, err)) return false;
     bool ok = write_image(out->sky_map, f, "sky.exr", &panorama.lighting, err) &&
               write_image(in->place ? out->relief_map : out->mirrored_sky_map, f, "panorama.exr", &panorama.mirrored, err);
-    *circle_m = panorama.radius_m;
+    *radius_m = panorama.radius_m;
     panorama_release(&panorama);
     if (!ok || !in->place) return ok;
     in->beyond_m = HIDDEN_PLACE_REACH_M;
@@ -259,8 +259,8 @@ bool frame_write_surroundings(struct pass_surroundings *surroundings, struct fra
         (n && !unhidden_create(&unhidden, f->occluders, n, f->picture.width_px, f->picture.height_px, err)))
         return false;
     struct seen seen = seen_of(f, n ? &unhidden : NULL);
-    bool ok = write_sun_share(&out, f, &seen, err) && write_ground(&out, color_gain, f, &seen, sight, err) && write_sky(&out, color_gain, f, &seen, err) &&
-              write_relief(&out, color_gain, f, err) && write_standing(&out, f, &seen, err);
+    bool ok = write_sun_share(&out, f, &seen, err) && write_ground(&out, color_gain, f, &seen, sight, err) &&
+              write_sky(&out, color_gain, f, &seen, err) && write_relief(&out, color_gain, f, err) && write_standing(&out, f, &seen, err);
     image_release(&unhidden);
     if (ok) *surroundings = out;
     else frame_release_surroundings(&out);

@@ -159,7 +159,7 @@ static bool of_place(struct sight *sight, const struct panorama_input *in, struc
     struct vec3 from = look_from(in, d);
     static_mesh_hits(in->place, &hit, from, &d, 1);
     if (!isfinite(hit.range_m)) return false;
-    static_mesh_color(in->place, own, &hit, hit.range_m * 2 * M_PI / WIDTH);
+    static_mesh_color(in->place, own, &hit, (vec3_norm(vec3_sub(from, in->from_m)) + hit.range_m) * 2 * M_PI / WIDTH);
     for (int c = 0; c < 3; c++) sight->rgb[c] = (double)own[c] * in->color_gain[c];
     struct vec3 p = vec3_add(from, vec3_scale(d, hit.range_m)), eye = in->seen->world_from_camera.translation;
     if (!seen_project(in->seen, &q, p) || seen_hidden(in->seen, q)) return true;

@@ -76,7 +76,8 @@ static float look(float rgbw[4], const struct standing *out, const struct seen *
 }
 
 /* What the picture shows of the place at a texel: how high, and how far before the plane. False where there is nothing. */
-static bool meet_place(double *z_m, double *before_m, const struct standing *out, const struct seen *seen, const struct image *place_depth, int x, int y)
+static bool meet_place(double *z_m, double *before_m, const struct standing *out, const struct seen *seen, const struct image *place_depth,
+                       int x, int y)
 {
     struct vec3 p = texel_point(out, x, y), ray;
     struct vec2 q;

@@ -112,41 +112,71 @@ static void write_mesh(struct sdl *sdl, const struct mesh *mesh, bool textured)
     mesh_sdl_faces(sdl, mesh->triangle, mesh->triangles);
 }
 
-/* What has gone through glass POV-Ray takes for a part of the picture, whatever ray it was: where the sky is not in the picture, it
- * would light nothing behind glass. So radiosity's rays do not meet the glass there, but a screen in its place, black: as much of
- * its faces as the glass keeps back. */
+/* --- glass --- */
+
+/* What has gone through a surface POV-Ray takes for a part of the picture, whatever ray it was: where the sky is not in the picture,
+ * it would light nothing behind glass. So radiosity's rays do not meet the glass there, but a screen in its place, black: as many of
+ * its pieces as the glass keeps back. (What is blended, or glass by its texture, stays dark behind.) */
 #define SCREENS "Glass_Screens"
 #define ENTERS 0.91 /* of a hemisphere's light, what no surface of glass reflects; Src: Walter and others 2007, for 1.5 */
+enum { PIECES_LEAST = 64 };
 
-static double face_area(const struct mesh *mesh, const uint32_t triangle[3])
+static bool is_glass(const struct mesh *mesh, const struct material *m)
 {
-    struct vec3 p[3];
-    for (int k = 0; k < 3; k++) {
-        const float *v = mesh->position_m[triangle[k]];
-        p[k] = vec3((double)v[0], (double)v[1], (double)v[2]);
-    }
-    return vec3_norm(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0])));
+    return transmittance(m) > 0 && (m->transmission > 0 || m->kind == FINISH_GLASS) && !(mesh->uv && m->base_image.data);
 }
 
-static bool write_screen(struct sdl *sdl, const struct mesh *mesh, double kept, struct error *err)
+static struct vec3 vertex_of(const struct mesh *mesh, uint32_t i)
 {
-    uint32_t (*triangle)[3] = malloc((mesh->triangles + 1) * sizeof *triangle);
+    const float *v = mesh->position_m[i];
+    return vec3((double)v[0], (double)v[1], (double)v[2]);
+}
+
+/* Piece k of a face of parts x parts alike. Out: corner (3) */
+static void piece_of(struct vec3 *corner, const struct mesh *mesh, size_t face, int parts, int k)
+{
+    int row = (int)floor(sqrt(k + 0.5)), at = k - row * row, left = at / 2; /* row r has 2 r + 1 pieces */
+    int along[3][2] = { { row, left }, { row + 1, left }, { row + 1, left + 1 } };
+    if (at % 2) memcpy(along, (int[3][2]){ { row, left }, { row + 1, left + 1 }, { row, left + 1 } }, sizeof along);
+    const uint32_t *t = mesh->triangle[face];
+    struct vec3 a = vertex_of(mesh, t[0]), down = vec3_sub(vertex_of(mesh, t[1]), a), across = vec3_sub(vertex_of(mesh, t[2]), vertex_of(mesh, t[1]));
+    for (int i = 0; i < 3; i++)
+        corner[i] = vec3_add(a, vec3_add(vec3_scale(down, (double)along[i][0] / parts), vec3_scale(across, (double)along[i][1] / parts)));
+}
+
+/* Out: corner (as many as pieces, 3). Returns how many of the pieces are kept */
+static size_t keep_pieces(struct vec3 *corner, const struct mesh *mesh, int parts, double share)
+{
     size_t n = 0;
     double due = 0;
-    if (!triangle) return error_set(err, ERR_MEMORY, "no memory for a model");
-    for (size_t i = 0; i < mesh->triangles; i++) {
-        double area = face_area(mesh, mesh->triangle[i]);
-        due += kept * area;
-        if (due < area / 2) continue;
-        due -= area;
-        memcpy(triangle[n++], mesh->triangle[i], sizeof *triangle);
-    }
+    for (size_t i = 0; i < mesh->triangles; i++)
+        for (int k = 0; k < parts * parts; k++) {
+            struct vec3 *p = &corner[3 * n];
+            piece_of(p, mesh, i, parts, k);
+            double size = vec3_norm(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0])));
+            due += share * size;
+            if (due < size / 2) continue;
+            due -= size;
+            n++;
+        }
+    return n;
+}
+
+static bool write_screen(struct sdl *sdl, const struct mesh *mesh, double share, struct error *err)
+{
+    int parts = mesh->triangles ? (int)ceil(sqrt((double)PIECES_LEAST / (double)mesh->triangles)) : 1;
+    size_t most = mesh->triangles * (size_t)(parts * parts);
+    struct vec3 *corner = malloc((3 * most + 1) * sizeof *corner);
+    uint32_t (*triangle)[3] = malloc((most + 1) * sizeof *triangle);
+    bool ok = (corner && triangle) || error_set(err, ERR_MEMORY, "no memory for a model");
+    size_t n = ok ? keep_pieces(corner, mesh, parts, share) : 0;
+    for (size_t i = 0; i < n; i++)
+        for (uint32_t k = 0; k < 3; k++) triangle[i][k] = 3 * (uint32_t)i + k;
     if (n) {
-        struct mesh screen = *mesh;
-        screen.triangle = triangle;
-        screen.triangles = n;
+        sdl_ifdef(sdl, SCREENS);
         sdl_begin(sdl, "mesh2");
-        write_mesh(sdl, &screen, false);
+        mesh_sdl_vectors(sdl, "vertex_vectors", corner, 3 * n);
+        mesh_sdl_faces(sdl, triangle, n);
         sdl_begin(sdl, "pigment");
         sdl_word(sdl, "rgb");
         sdl_number(sdl, 0);
@@ -155,9 +185,50 @@ static bool write_screen(struct sdl *sdl, const struct mesh *mesh, double kept, 
         sdl_word(sdl, "no_reflection");
         sdl_word(sdl, "no_shadow");
         sdl_end(sdl);
+        sdl_endif(sdl);
     }
+    free(corner);
     free(triangle);
-    return true;
+    return ok;
+}
+
+/* --- models --- */
+
+static bool write_part(struct sdl *sdl, const char *out_folder, const struct model *model, const struct mesh *mesh, const double *paint,
+                       struct error *err)
+{
+    const struct material *material = &model->materials[mesh->material];
+    bool textured = mesh->uv && material->base_image.data;
+    sdl_begin(sdl, "mesh2");
+    write_mesh(sdl, mesh, textured);
+    /* A texture that stops all light need not be read to know the shadow. */
+    bool shape_tells = !textured || material->alpha_mode == ALPHA_OPAQUE;
+    if (shape_tells) {
+        sdl_if(sdl, "Shapes_Only");
+        sdl_begin(sdl, "pigment");
+        sdl_word(sdl, "rgb");
+        sdl_number(sdl, 0.5);
+        sdl_word(sdl, "transmit");
+        sdl_number(sdl, transmittance(material));
+        sdl_end(sdl);
+        sdl_else(sdl);
+    }
+    if (textured) {
+        sdl_word(sdl, "uv_mapping");
+        sdl_newline(sdl);
+    }
+    sdl_begin(sdl, "texture");
+    bool ok = write_pigment(sdl, out_folder, model, mesh->material, paint, err);
+    write_finish(sdl, material);
+    sdl_end(sdl);
+    if (shape_tells) sdl_endif(sdl);
+    if (is_glass(mesh, material)) {
+        sdl_ifdef(sdl, SCREENS);
+        sdl_word(sdl, "no_radiosity");
+        sdl_endif(sdl);
+    }
+    sdl_end(sdl);
+    return ok && (!is_glass(mesh, material) || write_screen(sdl, mesh, 1 - ENTERS * transmittance(material), err));
 }
 
 void include_set_release(struct include_set *set)
@@ -188,45 +259,7 @@ bool model_include_write(const struct model_include *include, struct include_set
     sdl_declare(&sdl, include->name);
     sdl_begin(&sdl, "union");
     bool ok = true;
-    for (size_t i = 0; ok && i < model->mesh_count; i++) {
-        const struct mesh *mesh = &model->meshes[i];
-        const struct material *material = &model->materials[mesh->material];
-        bool textured = mesh->uv && material->base_image.data;
-        sdl_begin(&sdl, "mesh2");
-        write_mesh(&sdl, mesh, textured);
-        /* A texture that stops all light need not be read to know the shadow. */
-        bool shape_tells = !textured || material->alpha_mode == ALPHA_OPAQUE;
-        if (shape_tells) {
-            sdl_if(&sdl, "Shapes_Only");
-            sdl_begin(&sdl, "pigment");
-            sdl_word(&sdl, "rgb");
-            sdl_number(&sdl, 0.5);
-            sdl_word(&sdl, "transmit");
-            sdl_number(&sdl, transmittance(material));
-            sdl_end(&sdl);
-            sdl_else(&sdl);
-        }
-        if (textured) {
-            sdl_word(&sdl, "uv_mapping");
-            sdl_newline(&sdl);
-        }
-        sdl_begin(&sdl, "texture");
-        ok = write_pigment(&sdl, out_folder, model, mesh->material, paint, err);
-        write_finish(&sdl, material);
-        sdl_end(&sdl);
-        if (shape_tells) sdl_endif(&sdl);
-        bool is_glass = transmittance(material) > 0 && !textured;
-        if (is_glass) {
-            sdl_ifdef(&sdl, SCREENS);
-            sdl_word(&sdl, "no_radiosity");
-            sdl_endif(&sdl);
-        }
-        sdl_end(&sdl);
-        if (!is_glass) continue;
-        sdl_ifdef(&sdl, SCREENS);
-        ok = ok && write_screen(&sdl, mesh, 1 - ENTERS * transmittance(material), err);
-        sdl_endif(&sdl);
-    }
+    for (size_t i = 0; ok && i < model->mesh_count; i++) ok = write_part(&sdl, out_folder, model, &model->meshes[i], paint, err);
     sdl_end(&sdl);
     char *path = string_format("%s/%s", out_folder, include->path), *folder = path ? path_folder(path) : NULL;
     ok = ok && (folder || error_set(err, ERR_MEMORY, "no memory for a path")) && folder_make(folder, err) &&

@@ -3,6 +3,7 @@
 #include "map_flight.h"
 #include "write_pov.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,6 +12,7 @@
 
 static bool sees(const struct place_heights *heights, struct vec3 p, struct vec3 way, double length)
 {
+    assert(isfinite(length) || way.z > 0);
     double step = 0.75 * PROVING_MESH_CELL_M;
     for (double done = 0; done < length; done += step) {
         struct vec3 q = vec3_add(p, vec3_scale(way, done));

@@ -204,8 +204,9 @@ static bool put_scene(FILE *f, struct pov_job *job, const char *kind, const stru
         fputs("#include \"street_matter.inc\"\n", f);
         if (range) fputs("background { rgb 1 }\n", f);
     }
-    const char *all = "object { Street }", *standing = "object { Ground }\nobject { Markings }\nobject { Houses }\nobject { Parked_Cars }";
-    if (!alone) fprintf(f, "#include \"street.inc\"\n%s\n", !heights ? all : cells == HEIGHTS_GROUND ? standing : "object { Trees }");
+    const char *treeless = "object { Ground }\nobject { Markings }\nobject { Houses }\nobject { Parked_Cars }";
+    const char *parts = !heights ? "object { Street }" : cells == HEIGHTS_GROUND ? treeless : "object { Trees }";
+    if (!alone) fprintf(f, "#include \"street.inc\"\n%s\n", parts);
     if (!truth && !labels) return true;
     fprintf(f, "#declare Shapes_Only = %d;\n#include \"models.inc\"\n", !lit);
     for (size_t i = 1; labels && !alone && i <= proving_entity_count(c); i++)
