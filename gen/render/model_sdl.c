@@ -118,7 +118,7 @@ static void write_mesh(struct sdl *sdl, const struct mesh *mesh, bool textured)
  * it would light nothing behind glass. So radiosity's rays do not meet the glass there, but a screen in its place, black: as many of
  * its pieces as the glass keeps back. (What is blended, or glass by its texture, stays dark behind.) */
 #define SCREENS "Glass_Screens"
-#define ENTERS 0.91 /* of a hemisphere's light, what no surface of glass reflects; Src: Walter and others 2007, for 1.5 */
+#define ENTERS 0.91 /* of a hemisphere's light, what no surface of glass reflects; Src: Walsh 1926, for an index of 1.5 */
 enum { PIECES_LEAST = 64 };
 
 static bool is_glass(const struct mesh *mesh, const struct material *m)
