@@ -211,10 +211,12 @@ static bool write_relief(struct pass_surroundings *out, const double color_gain[
     }
     struct relief relief = { 0 };
     struct hidden_place hidden = { 0 };
-    char hidden_map[SURROUNDINGS_PATH_SIZE], *path = string_format("%s/relief.inc", f->folder);
-    bool ok = (known && entities && path) || error_set(err, ERR_MEMORY, "no memory for a frame");
-    ok = ok && relief_create(&relief, &in, err) && hidden_place_create(&hidden, &in, color_gain, err) &&
-         write_image(hidden_map, f, "hidden.exr", &hidden.radiance, err) && relief_include_write(path, &relief, &hidden, hidden_map, err);
+    char hidden_map[SURROUNDINGS_PATH_SIZE] = "", *path = string_format("%s/relief.inc", f->folder);
+    bool ok = (known && entities && path) || error_set(err, ERR_MEMORY, "no memory for a frame"), mirrored = out->relief_map[0];
+    ok = ok && relief_create(&relief, &in, err);
+    /* A measured sky has what stands round it; only the ground is the place's then. */
+    ok = ok && (!mirrored || (hidden_place_create(&hidden, &in, color_gain, err) && write_image(hidden_map, f, "hidden.exr", &hidden.radiance, err)));
+    ok = ok && relief_include_write(path, &relief, mirrored ? &hidden : NULL, hidden_map, err);
     snprintf(out->relief_include, SURROUNDINGS_PATH_SIZE, "frames/%s/relief.inc", f->name);
     relief_release(&relief);
     hidden_place_release(&hidden);

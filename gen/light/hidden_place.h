@@ -8,7 +8,7 @@
 #include "lib/error.h"
 #include "lib/image.h"
 
-/* As far from an entity; what stands farther is hidden from one as from the other. */
+/* As far from an entity; what stands farther is seen by all round it nearly alike. */
 #define HIDDEN_PLACE_REACH_M 20.0
 
 struct hidden_place {
