@@ -128,17 +128,16 @@ static bool write_ground(struct pass_surroundings *out, double color_gain[3], co
         below[in.n] = (struct bounced_ground){ { at.x, at.y }, frame_local_ground(f, &f->moment.entities[i]) };
         entities[in.n++] = f->moment.entities[i];
     }
-    struct orthophoto ground;
+    struct orthophoto ground = { 0 };
     bool ok = orthophoto_create(&ground, &in, err);
     if (ok) {
         struct bounced_input bounced = { .sight = sight, .light = in.light, .sun = in.sun, .low_m = ground.low_m, .high_m = ground.high_m,
                                          .ground = below, .n = in.n };
-        bounced_shade(&ground.bouncing, &bounced);
+        ok = bounced_shade(&ground.bouncing, &bounced, err);
     }
     free(entities);
     free(below);
-    if (!ok) return false;
-    ok = write_image(out->orthophoto, f, "orthophoto.png", &ground.mirrored, err) &&
+    ok = ok && write_image(out->orthophoto, f, "orthophoto.png", &ground.mirrored, err) &&
          write_image(out->orthophoto_coarse, f, "orthophoto-coarse.png", &ground.bouncing, err);
     out->low_m = ground.low_m;
     out->high_m = ground.high_m;

@@ -25,7 +25,8 @@ struct bounced_input {
 
 /* In the renderer the whole sky lights the ground that bounces, and the sun what it sees: an albedo that is so much
  * lower sends back the rest.
- * In/out: albedo  U8, 3 channels, sRGB; row 0 is the northmost, as orthophoto.bouncing */
-void bounced_shade(struct image *albedo, const struct bounced_input *in);
+ * In/out: albedo  U8, 3 channels, sRGB; row 0 is the northmost, as orthophoto.bouncing
+ * Err:    ERR_MEMORY */
+bool bounced_shade(struct image *albedo, const struct bounced_input *in, struct error *err);
 
 #endif

@@ -53,7 +53,7 @@ static bool shade(struct image *image, struct light *light, double *left, bool s
     if (ok) {
         memset(image->data, (int)(srgb_from_linear((float)ALBEDO) * 255 + 0.5f), image_size(image));
         struct bounced_input in = { .sight = sight, .light = light, .low_m = { -HALF_M, -HALF_M }, .high_m = { HALF_M, HALF_M }, .ground = &ground, .n = 1 };
-        bounced_shade(image, &in);
+        ok = bounced_shade(image, &in, err);
         for (int i = 0; i < 2 * SIDE; i++) {
             struct sky_seen seen = sky_sight_at(sight, vec3(-HALF_M + (i + 0.5) * HALF_M / SIDE, 0.1, 0), flat.normal);
             left[i / 2] = (i % 2 ? left[i / 2] : 0) + seen.with[1] / seen.without[1] / 2;
