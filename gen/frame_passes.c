@@ -58,10 +58,15 @@ static bool write_shades(struct place_files *files, struct static_cut *shades, c
     return ok;
 }
 
-/* The sky past the entities that matter and, unless around is NULL, the place. Out: *sight, the caller's, after a failure, too */
-static bool open_sight(struct sky_sight **sight, const struct static_cut *around, const struct frame *f, struct error *err)
+/* The sky past the entities that matter and, unless around is NULL, the place. In: lit  what stands round; NULL: nothing, and they send nothing back
+ * Out: *sight, the caller's, after a failure, too */
+static bool open_sight(struct sky_sight **sight, const struct static_cut *around, const struct pass_surroundings *lit, const struct frame *f, struct error *err)
 {
-    bool ok = sky_sight_create(sight, f->context->light, pass_settings(f->scene->quality).sky_directions, around, err);
+    struct sky_sight_input in = { .light = f->context->light, .directions = pass_settings(f->scene->quality).sky_directions, .near = around };
+    if (lit && lit->lighting.data) in.round = (struct sky_round){ &lit->lighting, f->stage->mesh };
+    else if (lit) in.round.radiance = &in.light->sky;
+    if (lit) in.sun_share = &lit->sun_share;
+    bool ok = sky_sight_create(sight, &in, err);
     for (size_t i = 0; ok && i < f->moment.n; i++)
         ok = !f->matters[i] || sky_sight_add(*sight, f->context->tracer, &f->moment.entities[i], &f->receivers[i], err);
     return ok;
@@ -107,8 +112,8 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
     ok = ok &&
          (f->stage->mesh ? write_place(&files, &ground, &around, &shades, &passes.ground, f, err)
                          : shaded_ground_of_plane(&ground, &f->scene->ground, receivers, n, err)) &&
-         open_sight(&sight, &around, f, err) && open_sight(&past_entities, NULL, f, err) &&
-         frame_write_surroundings(&surroundings, f, past_entities, err) &&
+         open_sight(&past_entities, NULL, NULL, f, err) && frame_write_surroundings(&surroundings, f, past_entities, err) &&
+         open_sight(&sight, &around, &surroundings, f, err) &&
          (!f->stage->mesh || write_shades(&files, &shades, f, &surroundings.sun_share, err)) && light_ground(&ground, sight, f, err) && passes_write(f->folder, &passes, err);
     frame_release_surroundings(&surroundings);
     sky_sight_destroy(past_entities);

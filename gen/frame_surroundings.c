@@ -168,6 +168,8 @@ static bool write_panorama(struct pass_surroundings *out, double *radius_m, cons
     bool ok = write_image(out->sky_map, f, "sky.exr", &panorama.lighting, err) &&
               write_image(in->place ? out->relief_map : out->mirrored_sky_map, f, "panorama.exr", &panorama.mirrored, err);
     *radius_m = panorama.radius_m;
+    out->lighting = panorama.lighting;
+    panorama.lighting = (struct image){ 0 };
     panorama_release(&panorama);
     if (!ok || !in->place) return ok;
     in->beyond_m = HIDDEN_PLACE_REACH_M;
@@ -247,6 +249,7 @@ void frame_release_surroundings(struct pass_surroundings *surroundings)
     for (size_t i = 0; i < surroundings->standing_count; i++) standing_release(&surroundings->standing[i].thing);
     free(surroundings->standing);
     sun_share_release(&surroundings->sun_share);
+    image_release(&surroundings->lighting);
     *surroundings = (struct pass_surroundings){ .sky_map = "" };
 }
 

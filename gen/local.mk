@@ -102,6 +102,7 @@ gen_libgen_a_SOURCES = \
   %D%/trace/bounced.c %D%/trace/bounced.h \
   %D%/trace/cast.c %D%/trace/cast.h \
   %D%/sunlit.c %D%/sunlit.h \
+  %D%/trace/exitance.c %D%/trace/exitance.h \
   %D%/trace/footprint.c %D%/trace/footprint.h \
   %D%/trace/fusion.c %D%/trace/fusion.h \
   %D%/trace/label.c %D%/trace/label.h \
@@ -115,6 +116,7 @@ gen_libgen_a_SOURCES = \
   %D%/trace/semantic.c %D%/trace/semantic.h \
   %D%/trace/shape.c %D%/trace/shape.h \
   %D%/trace/share.c %D%/trace/share.h \
+  %D%/trace/sky_rays.c %D%/trace/sky_rays.h \
   %D%/trace/sky_sight.c %D%/trace/sky_sight.h \
   %D%/trace/trace.c %D%/trace/trace.h \
   %D%/world/banded.c %D%/world/banded.h \

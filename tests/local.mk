@@ -206,6 +206,16 @@ tests_gen_wet_ground_test_SOURCES = %D%/gen/wet_ground.c %D%/gen/povray.h %D%/ge
 nodist_EXTRA_tests_gen_wet_ground_test_SOURCES = dummy.cxx
 tests_gen_wet_ground_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/sent_back_povray.test
+tests_gen_sent_back_povray_test_SOURCES = %D%/gen/sent_back_povray.c %D%/gen/povray.h %D%/gen/solid.h %D%/tap.h
+nodist_EXTRA_tests_gen_sent_back_povray_test_SOURCES = dummy.cxx
+tests_gen_sent_back_povray_test_LDADD = $(GEN_LIBS)
+
+check_PROGRAMS += tests/gen/sky_rays.test
+tests_gen_sky_rays_test_SOURCES = %D%/gen/sky_rays.c %D%/gen/place.h %D%/tap.h
+nodist_EXTRA_tests_gen_sky_rays_test_SOURCES = dummy.cxx
+tests_gen_sky_rays_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/sky_povray.test
 tests_gen_sky_povray_test_SOURCES = %D%/gen/sky_povray.c %D%/gen/povray.h %D%/tap.h
 nodist_EXTRA_tests_gen_sky_povray_test_SOURCES = dummy.cxx

@@ -14,11 +14,7 @@ enum { SKY_WIDTH = 256, SKY_HEIGHT = 128, SKY_HEIGHT_MAX = 512 };
 
 void light_sky_radiance(double color[3], const struct light *light, struct vec3 d)
 {
-    const struct image *sky = &light->sky;
-    double turn = atan2(d.y, d.x) / (2 * M_PI);
-    int column = (int)((turn - floor(turn)) * sky->width_px) % sky->width_px;
-    int row = (int)((0.5 - asin(fmin(1, fmax(-1, d.z))) / M_PI) * sky->height_px);
-    const float *pixel = image_f32(sky, column, row < sky->height_px ? row : sky->height_px - 1);
+    const float *pixel = sky_radiance(&light->sky, d);
     for (int c = 0; c < 3; c++) color[c] = (double)pixel[c];
 }
 

@@ -11,6 +11,15 @@
 
 static inline double sky_row_top(const struct image *sky, int row) { return M_PI / 2 - row * M_PI / sky->height_px; }
 
+/* Radiance from a direction: 3 channels of the pixel that it lies in. */
+static inline const float *sky_radiance(const struct image *sky, struct vec3 d)
+{
+    double turn = atan2(d.y, d.x) / (2 * M_PI);
+    int column = (int)((turn - floor(turn)) * sky->width_px) % sky->width_px;
+    int row = (int)((0.5 - asin(fmin(1, fmax(-1, d.z))) / M_PI) * sky->height_px);
+    return image_f32(sky, column, row < sky->height_px ? row : sky->height_px - 1);
+}
+
 /* A pixel's middle. */
 static inline struct vec3 sky_direction(const struct image *sky, int column, int row)
 {

@@ -47,6 +47,10 @@ void material_default(struct material *material);
  * that the position lies in): 1 where opaque, 0 or 1 where MASK, factor times texel where BLEND. */
 double material_alpha(const struct material *material, double u, double v);
 
+/* Of light from all around, the share that the surface sends back, as if it were matte (position as above).
+ * In: paint  the colour of FINISH_PAINT materials, linear; NULL: their own */
+void material_reflectance(double rgb[3], const struct material *material, const double *paint, double u, double v);
+
 /* The keyword rules: an ordered list, first match wins. */
 struct material_rules;
 

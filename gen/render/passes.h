@@ -40,6 +40,7 @@ struct pass_surroundings {
     struct vec2 low_m, high_m;
     double ground_albedo[3];        /* beyond the orthophoto */
     char sky_map[SURROUNDINGS_PATH_SIZE], mirrored_sky_map[SURROUNDINGS_PATH_SIZE]; /* "": the light's sky */
+    struct image lighting;          /* what sky_map holds; empty: the light's sky */
     struct vec3 seen_from_m, circle_m; /* where the mirrored map is seen from; and the middle, on the ground, of the circle that */
     double circle_radius_m;            /* mirrors see it on; 0: it is as far away as the sky */
     /* Of relief_include_write: over a place what relief_map shows stands there, and the mirrored map shows what is beyond; "": none. */

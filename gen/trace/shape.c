@@ -87,7 +87,7 @@ static bool attach(struct shape *shape, RTCDevice device, size_t index, struct e
         if (masked && mesh->uv) rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
     }
     rtcCommitGeometry(geometry);
-    rtcAttachGeometry(shape->scene, geometry);
+    rtcAttachGeometryByID(shape->scene, geometry, (unsigned)index);
     rtcReleaseGeometry(geometry);
     return true;
 }
@@ -184,6 +184,18 @@ void shape_hits(const struct shape *shape, double *range_m, struct vec3 origin_m
 {
     for (size_t at = 0; at < n; at += BATCH)
         hit_batch(shape, range_m + at, origin_m, directions + at, n - at < BATCH ? n - at : BATCH);
+}
+
+bool shape_meet(const struct shape *shape, struct shape_point *point, struct vec3 o, struct vec3 d)
+{
+    struct RTCRayHit hit = { .ray = { .org_x = (float)o.x, .org_y = (float)o.y, .org_z = (float)o.z, .dir_x = (float)d.x,
+                                      .dir_y = (float)d.y, .dir_z = (float)d.z, .tnear = NEAR_M, .tfar = FLT_MAX, .mask = UINT32_MAX },
+                             .hit = { .geomID = RTC_INVALID_GEOMETRY_ID, .instID = { RTC_INVALID_GEOMETRY_ID } } };
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(shape->scene, &context, &hit);
+    *point = (struct shape_point){ hit.hit.geomID, hit.hit.primID, (double)hit.ray.tfar, (double)hit.hit.u, (double)hit.hit.v };
+    return hit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
 void shape_shade(const struct shape *shape, float *share, struct vec3 origin_m, const struct vec3 *directions, size_t n)

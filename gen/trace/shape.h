@@ -27,6 +27,11 @@ bool shape_bounds(const struct shape *shape, struct vec3 *min_m, struct vec3 *ma
 void shape_hits(const struct shape *shape, double *range_m, struct vec3 origin_m, const struct vec3 *directions,
                 size_t n);
 
+/* Where a ray first meets the model: on a triangle of a mesh, at the weights u and v of its second and third corner. */
+struct shape_point { unsigned mesh, triangle; double range_m, u, v; };
+/* direction unit, in model coordinates; what lies nearer than 1 mm does not count. False: it meets nothing. */
+bool shape_meet(const struct shape *shape, struct shape_point *point, struct vec3 origin_m, struct vec3 direction);
+
 /* Take from light what the model stops of it: all, but for holes and what is transparent.
  * In/out: share (n) times what passes along each ray; a ray whose share is 0 costs nothing
  * In:     origin_m, directions (n) unit, in model coordinates; what lies nearer than 1 mm does not count */

@@ -1,9 +1,10 @@
-/* What of the sky's light reaches the ground: past the place, and past entities. The sky is some hundred directions,
- * the same for every point and every frame, so that what does not move keeps its shade to the last bit. */
+/* What of the sky's light reaches the ground: past the place, and past entities, which send light back (exitance.h). */
 #ifndef STAFFAGE_GEN_SKY_SIGHT_H
 #define STAFFAGE_GEN_SKY_SIGHT_H
 
+#include "gen/estimate/sun_share.h"
 #include "gen/light/light.h"
+#include "gen/trace/sky_rays.h"
 #include "gen/trace/trace.h"
 #include "gen/world/entity.h"
 #include "gen/world/receiver.h"
@@ -15,14 +16,18 @@
 
 struct sky_sight;
 
-/* The sky's irradiance / pi of a point of the ground. */
-struct sky_seen { double without[3], with[3]; /* entities */ };
+/* Irradiance / pi of a point of the ground, but for the sun's own, without and with the entities. */
+struct sky_seen { double without[3], with[3]; };
 
-/* In:  directions  what light_sample_sky makes of the sky: so many
- *      place       what of the static mesh can be in the way, copied; NULL: nothing
- * Err: ERR_MEMORY */
-bool sky_sight_create(struct sky_sight **sight, const struct light *light, size_t directions, const struct static_cut *place,
-                      struct error *err);
+struct sky_sight_input {
+    const struct light *light;         /* borrowed, as all but near is */
+    size_t directions;                 /* the sky is so many rays (sky_rays.h) */
+    const struct static_cut *near;     /* what of the place each point's rays may meet; NULL: nothing */
+    struct sky_round round;            /* what stands farther off, and lights the entities; without it they send nothing back */
+    const struct sun_share *sun_share; /* what besides the place keeps the sun from entities; NULL: nothing */
+};
+/* Err: ERR_MEMORY */
+bool sky_sight_create(struct sky_sight **sight, const struct sky_sight_input *in, struct error *err);
 /* An entity takes light from its receiver, less towards the receiver's edge (receiver_share), and none beyond.
  * tracer, entity's model and receiver are borrowed. */
 bool sky_sight_add(struct sky_sight *sight, const struct tracer *tracer, const struct entity *entity,

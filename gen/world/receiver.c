@@ -77,6 +77,18 @@ bool receiver_contains(const struct receiver *receiver, struct vec3 p)
     return true;
 }
 
+double receiver_reach(const struct receiver *receiver, struct vec3 p, struct vec2 d)
+{
+    double reach = INFINITY;
+    for (size_t i = 0; i < receiver->corners; i++) {
+        struct vec3 a = receiver->corner_m[i], b = receiver->corner_m[(i + 1) % receiver->corners];
+        double inside = turn(a, b, p), outwards = (b.y - a.y) * d.x - (b.x - a.x) * d.y;
+        if (inside < 0) return 0;
+        if (outwards > 0) reach = fmin(reach, inside / outwards);
+    }
+    return reach;
+}
+
 double receiver_share(const struct receiver *receiver, struct vec3 p)
 {
     double inside = receiver->fade_m;

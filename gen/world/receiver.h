@@ -28,6 +28,8 @@ bool receiver_create(struct receiver *receiver, const struct entity *entity, con
 void receiver_release(struct receiver *receiver);
 /* Is a ground point within it, seen from above? */
 bool receiver_contains(const struct receiver *receiver, struct vec3 p_m);
+/* How far it is, seen from above, from a ground point within it to its edge, along a level direction (unit); 0 from beyond. */
+double receiver_reach(const struct receiver *receiver, struct vec3 p_m, struct vec2 direction);
 /* How much of the shade counts at a ground point: 0 at the edge and beyond, 1 from fade_m inside, smooth between. */
 double receiver_share(const struct receiver *receiver, struct vec3 p_m);
 

@@ -48,7 +48,7 @@ static bool shade(struct image *image, struct light *light, double *left, bool s
     const struct model *models[] = { &wall.model };
     struct entity entity = { .id = 1, .name = "wall", .model = &wall.model, .world_from_entity = pose_identity() };
     const struct bounced_ground ground = { { 0, 0 }, flat };
-    bool ok = tracer_create(&tracer, models, 1, err) && light_create(light, &scene, err) && sky_sight_create(&sight, light, 256, NULL, err) &&
+    bool ok = tracer_create(&tracer, models, 1, err) && light_create(light, &scene, err) && sky_sight_create(&sight, &(struct sky_sight_input){ .light = light, .directions = 256 }, err) &&
               sky_sight_add(sight, tracer, &entity, &everywhere, err) && image_init(image, SIDE, SIDE, 3, PIXEL_U8, err);
     if (ok) {
         memset(image->data, (int)(srgb_from_linear((float)ALBEDO) * 255 + 0.5f), image_size(image));

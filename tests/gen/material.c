@@ -147,11 +147,38 @@ static void alpha_is_looked_up(void)
     OK(material_alpha(&m, 0.25, 0.25) == 0, "and not what is below");
 }
 
+static void reflectance_is_known(void)
+{
+    static uint8_t pixels[6] = { 255, 255, 255, 0, 0, 0 };
+    static const double paint[3] = { 0.6, 0.1, 0.2 };
+    struct material m;
+    double rgb[3], coat = 0.04 + 0.96 / 21;
+    material_default(&m);
+    m.base_color[0] = 0.5;
+    material_reflectance(rgb, &m, paint, 0, 0);
+    OK(rgb[0] == 0.5 && rgb[1] == 1 && rgb[2] == 1, "what is rough and white but for red sends back half of red; paint is for what is painted");
+    m.kind = FINISH_PAINT;
+    m.clearcoat = 1;
+    material_reflectance(rgb, &m, paint, 0, 0);
+    for (int c = 0; c < 3; c++) NEAR(rgb[c], coat + (1 - coat) * paint[c], 1e-9, "paint below a clear coat: what the coat mirrors, and of the rest the paint's share");
+    m.kind = FINISH_PBR;
+    m.clearcoat = 0;
+    m.base_image = (struct image){ 2, 1, 3, PIXEL_U8, pixels };
+    material_reflectance(rgb, &m, NULL, 0.75, 0.5);
+    OK(rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0, "a black texel sends nothing back");
+    m.base_image = (struct image){ 0 };
+    m.transmission = 0.8;
+    m.roughness = 0;
+    material_reflectance(rgb, &m, NULL, 0, 0);
+    NEAR(rgb[1], coat + (1 - coat) * 0.3 * 0.2, 1e-9, "glass: what it mirrors, and little of what it does not let through");
+}
+
 int main(void)
 {
     syntax_is_checked();
     names_are_matched();
     the_file_we_bring_is_right();
     alpha_is_looked_up();
+    reflectance_is_known();
     return tap_done();
 }

@@ -6,7 +6,7 @@
 #include "gen/trace/shaded_ground.h"
 
 /* In/out: ground: what passes->receivers is to be, unlit
- * In:     receivers of passes' entities; place: as sky_sight_create's */
+ * In:     receivers of passes' entities; place: as struct sky_sight_input's near */
 static bool shade_ground(struct shaded_ground *ground, const struct passes *passes, const struct receiver *receivers,
                          const struct static_cut *place, struct error *err)
 {
@@ -15,7 +15,7 @@ static bool shade_ground(struct shaded_ground *ground, const struct passes *pass
     struct sky_sight *sight = NULL;
     struct tracer *tracer = NULL;
     bool ok = tracer_create(&tracer, NULL, 0, err) && /* each model gets a tree of its own */
-              sky_sight_create(&sight, passes->light, settings.sky_directions, place, err);
+              sky_sight_create(&sight, &(struct sky_sight_input){ .light = passes->light, .directions = settings.sky_directions, .near = place }, err);
     for (size_t i = 0; ok && i < passes->entity_count; i++)
         ok = sky_sight_add(sight, tracer, &passes->entities[i], &receivers[i], err);
     ok = ok && shaded_ground_shade(ground, sight, detail, err);

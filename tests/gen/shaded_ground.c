@@ -50,7 +50,7 @@ static bool frame_light(struct frame *f, const struct light *light, const struct
     struct pass_settings settings = pass_settings(QUALITY_STANDARD);
     /* From 8 m high and 10 m away, at 1000 px a radian. */
     const struct shaded_ground_detail detail = { { -10, 0, 8 }, 1e-3, settings.fine_px };
-    bool ok = sky_sight_create(&f->sight, light, settings.sky_directions, NULL, err);
+    bool ok = sky_sight_create(&f->sight, &(struct sky_sight_input){ .light = light, .directions = settings.sky_directions }, err);
     for (f->n = 0; ok && f->n < n; f->n++)
         ok = receiver_create(&f->receivers[f->n], &entities[f->n], &flat, light, false, err) &&
              sky_sight_add(f->sight, tracer, &entities[f->n], &f->receivers[f->n], err);
@@ -101,7 +101,7 @@ static void beside_a_wall(const struct tracer *tracer)
     struct sky_sight *sight = NULL;
     solid_box(&wall, 600, 0.01, 2);
     struct entity entity = stand(1, &wall, 0, 0, 0);
-    if (OK(light_create(&light, &scene, &err) && sky_sight_create(&sight, &light, 128, NULL, &err) &&
+    if (OK(light_create(&light, &scene, &err) && sky_sight_create(&sight, &(struct sky_sight_input){ .light = &light, .directions = 128 }, &err) &&
            sky_sight_add(sight, tracer, &entity, &everywhere, &err), "an even sky and a wall")) {
         for (double d = 0.25; d < 10; d *= 2) {
             struct sky_seen seen = sky_sight_at(sight, vec3(d, 3, 0), flat.normal);

@@ -1,0 +1,122 @@
+#include "gen/trace/exitance.h"
+
+#include "gen/light/sky_image.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { RAYS = 32 };
+#define OFF_SURFACE_M 0.005
+
+/* Irradiance / pi of a side of a triangle, in its middle. */
+struct received { bool known; float above[3], ground[3]; /* sun and sky; what the ground sends up, lit as in the open */ };
+
+struct exitance {
+    const struct entity *entity;
+    const struct shape *shape;
+    struct entity_light in;
+    struct pose entity_from_world;
+    struct received **received; /* (meshes) each (triangles, 2): the front, the back */
+};
+
+bool exitance_create(struct exitance **exitance, const struct entity *entity, const struct shape *shape, const struct entity_light *in,
+                     struct error *err)
+{
+    const struct model *model = entity->model;
+    struct exitance *e = calloc(1, sizeof *e);
+    bool ok = e;
+    if (ok) {
+        *e = (struct exitance){ entity, shape, *in, pose_inverse(entity->world_from_entity), calloc(model->mesh_count + 1, sizeof *e->received) };
+        ok = e->received;
+    }
+    for (size_t i = 0; ok && i < model->mesh_count; i++)
+        ok = (e->received[i] = calloc(model->meshes[i].triangles + 1, 2 * sizeof *e->received[i]));
+    if (!ok) {
+        exitance_destroy(e);
+        return error_set(err, ERR_MEMORY, "no memory for the light that entities send back");
+    }
+    *exitance = e;
+    return true;
+}
+
+void exitance_destroy(struct exitance *e)
+{
+    if (!e) return;
+    for (size_t i = 0; e->received && i < e->entity->model->mesh_count; i++) free(e->received[i]);
+    free(e->received);
+    free(e);
+}
+
+static struct vec3 corner_of(const struct mesh *mesh, unsigned triangle, int k)
+{
+    const float *p = mesh->position_m[mesh->triangle[triangle][k]];
+    return vec3((double)p[0], (double)p[1], (double)p[2]);
+}
+
+/* Directions that share a matte surface's irradiance equally. */
+static void round_normal(struct vec3 direction[RAYS], struct vec3 normal)
+{
+    struct vec3 aside = vec3_unit(vec3_cross(normal, fabs(normal.z) < 0.9 ? vec3(0, 0, 1) : vec3(1, 0, 0))), up = vec3_cross(aside, normal);
+    for (int i = 0; i < RAYS; i++) {
+        double r = sqrt((i + 0.5) / RAYS), turn = 2 * M_PI * fmod((i + 0.5) * 0.61803398874989485, 1);
+        direction[i] = vec3_add(vec3_scale(normal, sqrt(1 - r * r)),
+                                vec3_add(vec3_scale(aside, r * cos(turn)), vec3_scale(up, r * sin(turn))));
+    }
+}
+
+/* How much of the sun reaches a surface. In: p, normal  in entity coordinates */
+static double sun_on(const struct exitance *e, struct vec3 p, struct vec3 normal)
+{
+    const struct entity_light *in = &e->in;
+    if (!in->light->has_sun) return 0;
+    struct vec3 towards = in->light->sun_direction, from_entity = mat3_apply(e->entity_from_world.rotation, towards);
+    double cosine = vec3_dot(normal, from_entity);
+    float left = 1;
+    if (!(cosine > 0)) return 0;
+    shape_shade(e->shape, &left, p, &from_entity, 1);
+    struct vec3 world = pose_apply(e->entity->world_from_entity, p);
+    if (!(left > 0) || (in->place && cut_rays_blocked(in->place, world, towards))) return 0;
+    if (in->sun_share && in->sun_share->map.data) {
+        const struct plane *ground = &in->sun_share->ground;
+        double down = (vec3_dot(world, ground->normal) - ground->offset_m) / fmax(vec3_dot(towards, ground->normal), 1e-3);
+        struct vec3 foot = vec3_sub(world, vec3_scale(towards, down));
+        cosine *= sun_share_at(in->sun_share, (struct vec2){ foot.x, foot.y });
+    }
+    return (double)left * cosine;
+}
+
+static void receive(struct received *out, const struct exitance *e, struct vec3 p, struct vec3 normal)
+{
+    struct vec3 direction[RAYS];
+    float left[RAYS];
+    double sun = sun_on(e, p, normal);
+    round_normal(direction, normal);
+    for (int i = 0; i < RAYS; i++) left[i] = 1;
+    shape_shade(e->shape, left, p, direction, RAYS);
+    *out = (struct received){ .known = true };
+    for (int i = 0; i < RAYS; i++) {
+        struct vec3 world = mat3_apply(e->entity->world_from_entity.rotation, direction[i]);
+        const float *radiance = sky_radiance(e->in.around, world);
+        for (int c = 0; c < 3; c++) (world.z > 0 ? out->above : out->ground)[c] += left[i] * radiance[c] / RAYS;
+    }
+    for (int c = 0; c < 3; c++) out->above[c] += (float)(sun * e->in.light->sun_color[c]);
+}
+
+void exitance_at(double rgb[3], struct exitance *e, const struct shape_point *at, struct vec3 direction, double ground_left)
+{
+    const struct model *model = e->entity->model;
+    const struct mesh *mesh = &model->meshes[at->mesh];
+    const struct material *material = &model->materials[mesh->material];
+    struct vec3 a = corner_of(mesh, at->triangle, 0), b = corner_of(mesh, at->triangle, 1), c = corner_of(mesh, at->triangle, 2);
+    struct vec3 normal = vec3_unit(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)));
+    bool back = vec3_dot(normal, direction) > 0;
+    if (back) normal = vec3_scale(normal, -1);
+    struct received *received = &e->received[at->mesh][2 * at->triangle + back];
+    struct vec3 middle = vec3_scale(vec3_add(a, vec3_add(b, c)), 1.0 / 3);
+    if (!received->known) receive(received, e, vec3_add(middle, vec3_scale(normal, OFF_SURFACE_M)), normal);
+    double uv[2] = { 0, 0 }, weight[3] = { 1 - at->u - at->v, at->u, at->v };
+    for (int k = 0; mesh->uv && k < 3; k++)
+        for (int i = 0; i < 2; i++) uv[i] += weight[k] * (double)mesh->uv[mesh->triangle[at->triangle][k]][i];
+    material_reflectance(rgb, material, e->entity->has_color ? e->entity->color : NULL, uv[0], uv[1]);
+    for (int i = 0; i < 3; i++) rgb[i] *= (double)received->above[i] + ground_left * (double)received->ground[i];
+}

@@ -1,0 +1,66 @@
+#include "gen/trace/sky_rays.h"
+
+#include "gen/light/sky_image.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FAR_M 1e5
+
+bool sky_rays_init(struct sky_rays *rays, const struct light *light, size_t n, struct error *err)
+{
+    struct sky_light *sampled = calloc(n + 1, sizeof *sampled);
+    *rays = (struct sky_rays){ calloc(n + 1, sizeof *rays->direction), calloc(n + 1, sizeof *rays->solid_angle),
+                               calloc(n + 1, sizeof *rays->color), n };
+    bool ok = sampled && rays->direction && rays->solid_angle && rays->color;
+    if (ok) light_sample_sky(sampled, n, light);
+    for (size_t i = 0; ok && i < n; i++) {
+        double radiance[3];
+        light_sky_radiance(radiance, light, sampled[i].direction);
+        rays->direction[i] = sampled[i].direction;
+        rays->solid_angle[i] = luminance_of(sampled[i].color) / fmax(luminance_of(radiance), 1e-9);
+        memcpy(rays->color[i], sampled[i].color, sizeof rays->color[i]);
+    }
+    free(sampled);
+    return ok || error_set(err, ERR_MEMORY, "no memory for the sky's directions");
+}
+
+void sky_rays_release(struct sky_rays *rays)
+{
+    free(rays->direction);
+    free(rays->solid_angle);
+    free(rays->color);
+    *rays = (struct sky_rays){ 0 };
+}
+
+/* By so much the radiance round is brought to what level ground receives of the sky. */
+static void match_sky(double gain[3], const struct sky_rays *rays, const struct image *radiance)
+{
+    double sky[3] = { 0, 0, 0 }, round[3] = { 0, 0, 0 };
+    for (size_t i = 0; i < rays->n; i++) {
+        const float *rgb = sky_radiance(radiance, rays->direction[i]);
+        for (int c = 0; c < 3; c++) {
+            sky[c] += rays->direction[i].z * rays->color[i][c];
+            round[c] += rays->direction[i].z * rays->solid_angle[i] * (double)rgb[c];
+        }
+    }
+    for (int c = 0; c < 3; c++) gain[c] = sky[c] / fmax(round[c], 1e-9);
+}
+
+void sky_rays_round(double (*color)[3], const struct sky_rays *rays, const struct sky_round *round, const struct receiver *receiver,
+                    struct vec3 from)
+{
+    double gain[3] = { 1, 1, 1 };
+    memcpy(color, rays->color, rays->n * sizeof *color);
+    if (!round->radiance) return;
+    if (!round->place) match_sky(gain, rays, round->radiance);
+    for (size_t i = 0; i < rays->n; i++) {
+        struct vec3 d = rays->direction[i];
+        double level = fmax(hypot(d.x, d.y), 1e-9);
+        double beyond = receiver_reach(receiver, from, (struct vec2){ d.x / level, d.y / level }) / level;
+        if (round->place && !static_mesh_blocks(round->place, from, d, beyond, beyond + FAR_M)) continue;
+        const float *rgb = sky_radiance(round->radiance, d);
+        for (int c = 0; c < 3; c++) color[i][c] = rays->solid_angle[i] * (double)rgb[c] * gain[c];
+    }
+}
