@@ -165,7 +165,7 @@ static bool write_panorama(struct pass_surroundings *out, double *radius_m, cons
 {
     struct panorama panorama = { 0 }, far = { 0 };
     if (!panorama_create(&panorama, in, err)) return false;
-    bool ok = write_image(out->sky_map, f, "sky.exr", &panorama.lighting, err) &&
+    bool ok = (in->place || write_image(out->sky_map, f, "sky.exr", &panorama.lighting, err)) &&
               write_image(in->place ? out->relief_map : out->mirrored_sky_map, f, "panorama.exr", &panorama.mirrored, err);
     *radius_m = panorama.radius_m;
     out->lighting = panorama.lighting;

@@ -49,7 +49,7 @@ static void write_light(struct sdl *sdl, const struct passes *p, bool object)
     }
     const struct pass_surroundings *around = object ? p->surroundings : NULL;
     sdl_declare_string(sdl, "Sky_Map", around && around->sky_map[0] ? around->sky_map : p->sky_map);
-    if (around && around->sky_map[0]) {
+    if (around && around->mirrored_sky_map[0]) {
         sdl_declare_string(sdl, "Mirrored_Sky_Map", around->mirrored_sky_map);
         sdl_declare_vector(sdl, "Seen_From", around->seen_from_m);
     }

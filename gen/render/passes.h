@@ -39,8 +39,9 @@ struct pass_surroundings {
     char orthophoto[SURROUNDINGS_PATH_SIZE], orthophoto_coarse[SURROUNDINGS_PATH_SIZE];
     struct vec2 low_m, high_m;
     double ground_albedo[3];        /* beyond the orthophoto */
-    char sky_map[SURROUNDINGS_PATH_SIZE], mirrored_sky_map[SURROUNDINGS_PATH_SIZE]; /* "": the light's sky */
-    struct image lighting;          /* what sky_map holds; empty: the light's sky */
+    /* "": the light's sky. Over a place the mirrored map, which is what is beyond the relief, lights, too. */
+    char sky_map[SURROUNDINGS_PATH_SIZE], mirrored_sky_map[SURROUNDINGS_PATH_SIZE];
+    struct image lighting;          /* all that stands round, as it lights; empty: the light's sky */
     struct vec3 seen_from_m, circle_m; /* where the mirrored map is seen from; and the middle, on the ground, of the circle that */
     double circle_radius_m;            /* mirrors see it on; 0: it is as far away as the sky */
     /* Of relief_include_write: over a place what relief_map shows stands there, and the mirrored map shows what is beyond; "": none. */

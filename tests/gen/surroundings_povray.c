@@ -297,6 +297,50 @@ static void test_relief(const struct light *light, struct entity *entity, struct
     place_free(&place);
 }
 
+/* A long wall shines, and nothing else: the ball is lit from where it stands itself, nearer to it than who looked round. */
+static void test_relief_light(const struct light *light, struct entity *entity, struct image *picture)
+{
+    const double wall_y = -10, height = 7, shines = 2;
+    const struct vec3 front = vec3(0, -1, 1);
+    struct error err = ERROR_NONE;
+    struct light sunless = *light;
+    struct place place = { 0 };
+    struct static_mesh *mesh = NULL;
+    struct relief relief = { 0 };
+    struct relief_input in = { .from_m = { 0, 6, 1 } };
+    struct image pass = { 0 };
+    struct vec2 q;
+    place_wall(&place, -300, 300, wall_y, 0, height, 0);
+    bool ok = place_mesh(&mesh, &place, false, &err) && image_init(&circle.map, 1024, 512, 3, PIXEL_F32, &err);
+    in.place = mesh;
+    if (!OK(ok && relief_create(&relief, &in, &err), "a relief of a long wall")) return;
+    for (int y = 0; y < 512; y++)
+        for (int x = 0; x < 1024; x++) {
+            struct vec3 d = sky_direction(&circle.map, x, y);
+            double z = in.from_m.z + (wall_y - in.from_m.y) / d.y * d.z;
+            for (int c = 0; c < 3; c++) image_f32(&circle.map, x, y)[c] = d.y < 0 && z > 0 && z < height ? (float)shines : 0;
+        }
+    circle.from_m = in.from_m;
+    circle.relief = &relief;
+    sunless.has_sun = false;
+    scene.quality = QUALITY_STANDARD;
+    fill_px(picture, 0, 0, WIDTH, HEIGHT, 0, 0, 0);
+    if (OK(camera_project(&camera, &q, pose_apply(pose_inverse(looking(eye, middle)), front), &err) && render(&pass, &sunless, entity, picture, NULL),
+           "a white ball before it")) {
+        double got = 0, far = front.y - wall_y, wanted = (sin(atan((height - 1) / far)) + sin(atan(1 / far))) / 2 * shines;
+        for (int i = 0; i < 25; i++) got += (double)image_f32(&pass, (int)q.x + i % 5 - 2, (int)q.y + i / 5 - 2)[1] / 25;
+        /* The relief may end a step of 0.4 m below the top; as seen from there it would be 0.62 of it. */
+        NEAR(got, wanted, 0.1 * wanted, "is as bright as the wall is large, seen from the ball");
+    }
+    scene.quality = QUALITY_DRAFT;
+    circle.relief = NULL;
+    image_release(&pass);
+    image_release(&circle.map);
+    relief_release(&relief);
+    static_mesh_destroy(mesh);
+    place_free(&place);
+}
+
 /* Red from (-1, 1) to (2, 4), across and up. */
 static void paint_red(uint8_t srgb[3], const float p[3])
 {
@@ -360,6 +404,7 @@ int main(void)
     if (!OK(mkdtemp(out) != NULL && light_create(&light, &scene, &err) && image_init(&picture, WIDTH, HEIGHT, 3, PIXEL_U8, &err), "light and a picture"))
         return tap_done();
     test_bounce(&light, &entity, &picture);
+    test_relief_light(&light, &entity, &picture);
     entity.model = &mirror.model;
     test_mirror(&light, &entity, &picture, vec3(1.2, -1.9, 0));
     test_mirror(&light, &entity, &picture, vec3(-2, -1.4, 0));
