@@ -86,7 +86,7 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
     struct receiver *receivers = calloc(f->moment.n + 1, sizeof *receivers);
     struct model_include *includes = calloc(f->moment.n + 1, sizeof *includes);
     size_t n = 0;
-    struct pass_surroundings surroundings = { .sky_map = "" };
+    struct pass_surroundings surroundings = { 0 };
     struct place_files files;
     struct shaded_ground ground = { 0 };
     struct static_cut around = { 0 }, shades = { 0 };

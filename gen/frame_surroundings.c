@@ -165,15 +165,13 @@ static bool write_panorama(struct pass_surroundings *out, double *radius_m, cons
 {
     struct panorama panorama = { 0 }, far = { 0 };
     if (!panorama_create(&panorama, in, err)) return false;
-    bool ok = (in->place || write_image(out->sky_map, f, "sky.exr", &panorama.lighting, err)) &&
-              write_image(in->place ? out->relief_map : out->mirrored_sky_map, f, "panorama.exr", &panorama.mirrored, err);
+    bool ok = panorama_lighting(&out->lighting, &panorama, in->light, err) &&
+              write_image(in->place ? out->relief_map : out->sky_map, f, "panorama.exr", &panorama.radiance, err);
     *radius_m = panorama.radius_m;
-    out->lighting = panorama.lighting;
-    panorama.lighting = (struct image){ 0 };
     panorama_release(&panorama);
     if (!ok || !in->place) return ok;
     in->beyond_m = HIDDEN_PLACE_REACH_M;
-    ok = panorama_create(&far, in, err) && write_image(out->mirrored_sky_map, f, "far.exr", &far.mirrored, err);
+    ok = panorama_create(&far, in, err) && write_image(out->sky_map, f, "far.exr", &far.radiance, err);
     panorama_release(&far);
     return ok;
 }
@@ -250,12 +248,12 @@ void frame_release_surroundings(struct pass_surroundings *surroundings)
     free(surroundings->standing);
     sun_share_release(&surroundings->sun_share);
     image_release(&surroundings->lighting);
-    *surroundings = (struct pass_surroundings){ .sky_map = "" };
+    *surroundings = (struct pass_surroundings){ 0 };
 }
 
 bool frame_write_surroundings(struct pass_surroundings *surroundings, struct frame *f, const struct sky_sight *sight, struct error *err)
 {
-    struct pass_surroundings out = { .sky_map = "" };
+    struct pass_surroundings out = { 0 };
     double color_gain[3] = { 0, 0, 0 };
     struct image unhidden = { 0 };
     size_t n = f->occluder_count;

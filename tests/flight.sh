@@ -91,7 +91,7 @@ for frame in 000000 000001 000002; do
 done
 
 check "the place stands round in each object pass, in files that are there" sh -c 'cd one && for f in frames/*/object.pov; do
-    d=${f%/object.pov}; grep -q "Mirrored_Sky_Map *= *\"$d/far.exr\"" $f && grep -q "Relief_Map *= *\"$d/panorama.exr\"" $f &&
+    d=${f%/object.pov}; grep -q "Sky_Map *= *\"$d/far.exr\"" $f && grep -q "Relief_Map *= *\"$d/panorama.exr\"" $f &&
     grep -q "\"$d/relief.inc\"" $f && test -s $d/far.exr -a -s $d/panorama.exr -a -s $d/relief.inc || exit 1; done'
 
 # One world, whoever looks at it when.

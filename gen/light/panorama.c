@@ -276,21 +276,6 @@ static bool paint(struct image *image, const struct panorama_input *in, const st
     return ok;
 }
 
-/* Below the horizon is the light's own ground; above, the means of squares of the large image. */
-static void reduce(struct image *small, const struct image *large, const struct image *sky)
-{
-    int square = large->width_px / small->width_px;
-    memcpy(small->data, sky->data, image_size(sky));
-    for (int y = 0; y < small->height_px / 2; y++)
-        for (int x = 0; x < small->width_px; x++)
-            for (int c = 0; c < 3; c++) {
-                double sum = 0;
-                for (int j = 0; j < square; j++)
-                    for (int i = 0; i < square; i++) sum += (double)image_f32(large, x * square + i, y * square + j)[c];
-                image_f32(small, x, y)[c] = (float)(sum / (square * square));
-            }
-}
-
 bool panorama_create(struct panorama *panorama, const struct panorama_input *in, struct error *err)
 {
     struct panorama out = { 0 };
@@ -298,23 +283,38 @@ bool panorama_create(struct panorama *panorama, const struct panorama_input *in,
     int scale = sky->width_px < WIDTH ? WIDTH / sky->width_px : 1;
     struct wall wall = { .there = false };
     if (!in->place) wall = raise_wall(in);
-    bool ok = image_init(&out.mirrored, scale * sky->width_px, scale * sky->height_px, 3, PIXEL_F32, err) &&
-              image_init(&out.lighting, sky->width_px, sky->height_px, 3, PIXEL_F32, err) && paint(&out.mirrored, in, &wall, err);
+    bool ok = image_init(&out.radiance, scale * sky->width_px, scale * sky->height_px, 3, PIXEL_F32, err) && paint(&out.radiance, in, &wall, err);
     if (!ok) {
         panorama_release(&out);
         return false;
     }
-    reduce(&out.lighting, &out.mirrored, sky);
     const float *ground = image_f32(sky, 0, sky->height_px - 1);
-    for (int y = painted_rows(in, &out.mirrored); y < out.mirrored.height_px; y++)
-        for (int x = 0; x < out.mirrored.width_px; x++) memcpy(image_f32(&out.mirrored, x, y), ground, 3 * sizeof *ground);
+    for (int y = painted_rows(in, &out.radiance); y < out.radiance.height_px; y++)
+        for (int x = 0; x < out.radiance.width_px; x++) memcpy(image_f32(&out.radiance, x, y), ground, 3 * sizeof *ground);
     if (wall.there) out.radius_m = wall.radius_m;
     *panorama = out;
     return true;
 }
 
+/* The means of squares of the large image. */
+bool panorama_lighting(struct image *lighting, const struct panorama *panorama, const struct light *light, struct error *err)
+{
+    const struct image *sky = &light->sky, *large = &panorama->radiance;
+    int square = large->width_px / sky->width_px;
+    if (!image_init(lighting, sky->width_px, sky->height_px, 3, PIXEL_F32, err)) return false;
+    memcpy(lighting->data, sky->data, image_size(sky));
+    for (int y = 0; y < sky->height_px / 2; y++)
+        for (int x = 0; x < sky->width_px; x++)
+            for (int c = 0; c < 3; c++) {
+                double sum = 0;
+                for (int j = 0; j < square; j++)
+                    for (int i = 0; i < square; i++) sum += (double)image_f32(large, x * square + i, y * square + j)[c];
+                image_f32(lighting, x, y)[c] = (float)(sum / (square * square));
+            }
+    return true;
+}
+
 void panorama_release(struct panorama *panorama)
 {
-    image_release(&panorama->mirrored);
-    image_release(&panorama->lighting);
+    image_release(&panorama->radiance);
 }

@@ -17,9 +17,8 @@
 #include "lib/vec.h"
 
 struct panorama {
-    struct image mirrored;  /* F32, 3 channels: radiance, laid out as sky_image.h says; below the horizon the light's own, of a
+    struct image radiance;  /* F32, 3 channels, laid out as sky_image.h says; below the horizon the light's own, of a
                              * place that from RELIEF_LOWEST_RAD (relief.h) */
-    struct image lighting;  /* the same at the size of the light's sky */
     double radius_m;        /* of the circle round the camera on which stands what the picture shows; 0: it is as far away as the sky */
 };
 
@@ -38,6 +37,8 @@ struct panorama_input {
 /* Out: *panorama, initialized here; free with panorama_release
  * Err: ERR_MEMORY */
 bool panorama_create(struct panorama *panorama, const struct panorama_input *in, struct error *err);
+/* The same at the size of the light's sky, with its ground. Out: lighting, initialized here. Err: ERR_MEMORY */
+bool panorama_lighting(struct image *lighting, const struct panorama *panorama, const struct light *light, struct error *err);
 void panorama_release(struct panorama *panorama);
 
 #endif

@@ -49,14 +49,9 @@ static void write_light(struct sdl *sdl, const struct passes *p, bool object)
     }
     const struct pass_surroundings *around = object ? p->surroundings : NULL;
     sdl_declare_string(sdl, "Sky_Map", around && around->sky_map[0] ? around->sky_map : p->sky_map);
-    if (around && around->mirrored_sky_map[0]) {
-        sdl_declare_string(sdl, "Mirrored_Sky_Map", around->mirrored_sky_map);
-        sdl_declare_vector(sdl, "Seen_From", around->seen_from_m);
-    }
-    if (around && around->relief_include[0]) {
-        sdl_declare_string(sdl, "Relief_Map", around->relief_map);
-        sdl_include(sdl, around->relief_include);
-    }
+    if (around && around->sky_map[0]) sdl_declare_vector(sdl, "Seen_From", around->seen_from_m);
+    if (around && around->relief_map[0]) sdl_declare_string(sdl, "Relief_Map", around->relief_map);
+    if (around && around->relief_include[0]) sdl_include(sdl, around->relief_include);
     if (around && around->circle_radius_m > 0) {
         sdl_declare_vector(sdl, "Circle_Centre", around->circle_m);
         sdl_declare_number(sdl, "Circle_Radius", around->circle_radius_m);

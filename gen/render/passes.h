@@ -39,12 +39,11 @@ struct pass_surroundings {
     char orthophoto[SURROUNDINGS_PATH_SIZE], orthophoto_coarse[SURROUNDINGS_PATH_SIZE];
     struct vec2 low_m, high_m;
     double ground_albedo[3];        /* beyond the orthophoto */
-    /* "": the light's sky. Over a place the mirrored map, which is what is beyond the relief, lights, too. */
-    char sky_map[SURROUNDINGS_PATH_SIZE], mirrored_sky_map[SURROUNDINGS_PATH_SIZE];
-    struct image lighting;          /* all that stands round, as it lights; empty: the light's sky */
-    struct vec3 seen_from_m, circle_m; /* where the mirrored map is seen from; and the middle, on the ground, of the circle that */
-    double circle_radius_m;            /* mirrors see it on; 0: it is as far away as the sky */
-    /* Of relief_include_write: over a place what relief_map shows stands there, and the mirrored map shows what is beyond; "": none. */
+    char sky_map[SURROUNDINGS_PATH_SIZE]; /* "": the light's sky */
+    struct vec3 seen_from_m, circle_m;    /* where the map is seen from; and the middle, on the ground, of the circle that what it */
+    double circle_radius_m;               /* shows stands on; 0: it is as far away as the sky */
+    struct image lighting;                /* all that stands round, and the sky, at the size of the light's; empty: that */
+    /* Of relief_include_write: over a place what relief_map shows stands there, and sky_map shows what is beyond; "": none. */
     char relief_include[SURROUNDINGS_PATH_SIZE], relief_map[SURROUNDINGS_PATH_SIZE];
     struct pass_standing *standing; /* (standing_count) */
     size_t standing_count;

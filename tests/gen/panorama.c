@@ -38,6 +38,7 @@ static void over_a_plane(const struct light *light)
 {
     struct error err = ERROR_NONE;
     struct panorama p;
+    struct image lighting;
     struct seen seen = { .picture = &picture, .camera = &camera, .world_from_camera = level, .k = { 0.5, 0.5, 0.5 } };
     seen_init(&seen);
     struct panorama_input in = input(&seen, light);
@@ -46,16 +47,17 @@ static void over_a_plane(const struct light *light)
     fill_px(&picture, 192, 117, 208, 134, 0.1, 0.2, 0.4);
     if (!OK(panorama_create(&p, &in, &err), "over a plane")) return;
     NEAR(p.radius_m, 24.4949, 1e-3, "the circle begins where the ground ends");
-    OK(p.mirrored.width_px == 1024 && p.lighting.width_px == light->sky.width_px, "a fine one is mirrored, one of the sky's size lights");
+    if (!OK(panorama_lighting(&lighting, &p, light, &err), "and at the size of the sky")) return;
+    OK(p.radiance.width_px == 1024 && lighting.width_px == light->sky.width_px, "which is coarser");
     double up = degrees(atan2(8, 14.495));
-    near_radiance(&p.mirrored, 90, up, 0.2, 0.4, 0.8, "the sign is where it stands: 14.5 m from here, 8 m higher");
-    near_radiance(&p.mirrored, 90, degrees(atan2(6.3, 14.495)), 0.2, 0.2, 0.2, "below it is what the picture shows below it");
-    near_radiance(&p.mirrored, 90 + degrees(atan2(1.6, 14.495)), up, 0.2, 0.2, 0.2, "and beside it what it shows there");
+    near_radiance(&p.radiance, 90, up, 0.2, 0.4, 0.8, "the sign is where it stands: 14.5 m from here, 8 m higher");
+    near_radiance(&p.radiance, 90, degrees(atan2(6.3, 14.495)), 0.2, 0.2, 0.2, "below it is what the picture shows below it");
+    near_radiance(&p.radiance, 90 + degrees(atan2(1.6, 14.495)), up, 0.2, 0.2, 0.2, "and beside it what it shows there");
     /* A grey wall that shows its shaded side ahead is sunlit behind the camera, or the other way round. */
     double ahead[3], behind[3];
     light_irradiance(ahead, light, vec3(0, -1, 0));
     light_irradiance(behind, light, vec3(0, 1, 0));
-    near_radiance(&p.mirrored, 270, 3, 0.2 * behind[0] / ahead[0], 0.2 * behind[1] / ahead[1], 0.2 * behind[2] / ahead[2],
+    near_radiance(&p.radiance, 270, 3, 0.2 * behind[0] / ahead[0], 0.2 * behind[1] / ahead[1], 0.2 * behind[2] / ahead[2],
                   "behind the camera it goes on, lit as the side that is seen there");
     OK(fabs(behind[0] / ahead[0] - 1) > 0.3, "which is lit otherwise (%.2f)", behind[0] / ahead[0]);
     /* A picture dark to one side and bright to the other: no neighbours round the circle differ as much. */
@@ -63,9 +65,9 @@ static void over_a_plane(const struct light *light)
     for (int x = 0; x < WIDTH; x++) fill_px(&picture, x, 0, x + 1, HEIGHT, 0.1 + 0.8 * x / WIDTH, 0.2, 0.2);
     struct panorama slope;
     if (OK(panorama_create(&slope, &in, &err), "a picture that brightens to one side")) {
-        int row = slope.mirrored.height_px / 2 - 3;
-        for (int x = 0; x < slope.mirrored.width_px; x++)
-            step = fmax(step, fabs((double)(image_f32(&slope.mirrored, x, row)[0] - image_f32(&slope.mirrored, (x + 1) % slope.mirrored.width_px, row)[0])));
+        int row = slope.radiance.height_px / 2 - 3;
+        for (int x = 0; x < slope.radiance.width_px; x++)
+            step = fmax(step, fabs((double)(image_f32(&slope.radiance, x, row)[0] - image_f32(&slope.radiance, (x + 1) % slope.radiance.width_px, row)[0])));
         OK(step < 0.06, "goes round without a seam (%.3f)", step);
         panorama_release(&slope);
     }
@@ -77,31 +79,32 @@ static void over_a_plane(const struct light *light)
     struct occluder outline = { .polygon_px = (struct vec2[]){ { 195, 0 }, { 205, 0 }, { 205, HEIGHT }, { 195, HEIGHT } }, .polygon_count = 4 };
     seen.unhidden = &unhidden;
     if (OK(unhidden_create(&unhidden, &outline, 1, WIDTH, HEIGHT, &err) && panorama_create(&post, &in, &err), "with a post in the middle")) {
-        near_radiance(&post.mirrored, 90 + degrees(atan2(1.6, 14.495)), up, 0.2, 0.2, 0.2, "what is beside it is there");
-        near_radiance(&post.mirrored, 90, degrees(atan2(2, 14.495)), 0.2, 0.2, 0.2, "and so it is instead of the post");
+        near_radiance(&post.radiance, 90 + degrees(atan2(1.6, 14.495)), up, 0.2, 0.2, 0.2, "what is beside it is there");
+        near_radiance(&post.radiance, 90, degrees(atan2(2, 14.495)), 0.2, 0.2, 0.2, "and so it is instead of the post");
         panorama_release(&post);
         image_release(&unhidden);
     }
     seen.unhidden = NULL;
     double sky[3], model[3];
-    radiance_at(sky, &p.mirrored, 30, 75);
+    radiance_at(sky, &p.radiance, 30, 75);
     light_sky_radiance(model, light, vec3(cos(M_PI / 6) * cos(75 * M_PI / 180), sin(M_PI / 6) * cos(75 * M_PI / 180), sin(75 * M_PI / 180)));
     for (int c = 0; c < 3; c++) NEAR(sky[c], model[c], 0.03 * model[c], "above is the sky, channel %d", c);
     double sum[2][3] = { { 0 } };
     for (int k = 0; k < 2; k++) {
-        const struct image *image = k ? &p.lighting : &p.mirrored;
+        const struct image *image = k ? &lighting : &p.radiance;
         for (int y = 0; y < image->height_px / 2; y++)
             for (int x = 0; x < image->width_px; x++)
                 for (int c = 0; c < 3; c++) sum[k][c] += sky_level_weight(image, y) * (double)image_f32(image, x, y)[c];
     }
     for (int c = 0; c < 3; c++) NEAR(sum[1][c], sum[0][c], 0.005 * sum[0][c], "both send as much light down, channel %d", c);
+    image_release(&lighting);
     panorama_release(&p);
 
     /* A sky that the sensor could not hold. */
     fill_px(&picture, 0, 0, WIDTH, 140, 1, 1, 1);
     for (int c = 0; c < 3; c++) seen.k[c] = 10;
     if (OK(panorama_create(&p, &in, &err), "a white sky")) {
-        radiance_at(sky, &p.mirrored, 90, 30);
+        radiance_at(sky, &p.radiance, 90, 30);
         light_sky_radiance(model, light, vec3(0, cos(M_PI / 6), sin(M_PI / 6)));
         OK(sky[0] >= 0.95 * model[0], "is as bright as the sky's model, or more (%.3f, %.3f)", sky[0], model[0]);
         panorama_release(&p);
@@ -111,12 +114,13 @@ static void over_a_plane(const struct light *light)
     seen.world_from_camera = looking(vec3(0, 0, 30), vec3(0, 1, 0));
     seen_init(&seen);
     in.height_m = 30;
-    if (OK(panorama_create(&p, &in, &err), "from above")) {
+    if (OK(panorama_create(&p, &in, &err) && panorama_lighting(&lighting, &p, light, &err), "from above")) {
         int other = 0;
-        for (int y = 0; y < p.lighting.height_px / 2; y++)
-            for (int x = 0; x < p.lighting.width_px; x++)
-                other += fabsf(image_f32(&p.lighting, x, y)[1] / image_f32(&light->sky, x, y)[1] - 1) > 0.1f;
+        for (int y = 0; y < lighting.height_px / 2; y++)
+            for (int x = 0; x < lighting.width_px; x++)
+                other += fabsf(image_f32(&lighting, x, y)[1] / image_f32(&light->sky, x, y)[1] - 1) > 0.1f;
         OK(other == 0 && !(p.radius_m > 0), "there is the sky alone");
+        image_release(&lighting);
         panorama_release(&p);
     }
 }
@@ -140,19 +144,19 @@ static void with_a_skyline(const struct scene *open_scene)
     for (int told = 0; told < 2; told++) {
         in.told = told;
         if (!OK(panorama_create(&p, &in, &err), "what stands around is %s", told ? "told" : "assumed")) continue;
-        near_radiance(&p.mirrored, 105, 30, 0.2, 0.2, 0.2, "what the picture shows counts before it");
-        radiance_at(rgb, &p.mirrored, 75, 30);
+        near_radiance(&p.radiance, 105, 30, 0.2, 0.2, 0.2, "what the picture shows counts before it");
+        radiance_at(rgb, &p.radiance, 75, 30);
         OK(rgb[2] > 1.9, "also the sky that it shows (%.2f)", rgb[2]);
         struct vec3 above_sky = vec3(cos(1.1) * cos(1.3), cos(1.1) * sin(1.3), sin(1.1)), above_grey = vec3(cos(1.1) * cos(1.8), cos(1.1) * sin(1.8), sin(1.1));
-        radiance_at(rgb, &p.mirrored, degrees(1.3), degrees(1.1));
+        radiance_at(rgb, &p.radiance, degrees(1.3), degrees(1.1));
         light_sky_radiance(stands, &light, above_sky);
         OK(rgb[2] > 3 * stands[2], "above a sky that is seen nothing stands (%.3f, %.3f)", rgb[2], stands[2]);
-        radiance_at(rgb, &p.mirrored, degrees(1.8), degrees(1.1));
+        radiance_at(rgb, &p.radiance, degrees(1.8), degrees(1.1));
         light_sky_radiance(stands, &light, above_grey);
         NEAR(rgb[2], stands[2], 0.05 * stands[2], "above what stands it goes on");
         int bright = 0, n = 0;
         for (int azimuth = 200; azimuth < 340; azimuth++, n++) {
-            radiance_at(rgb, &p.mirrored, azimuth, 30);
+            radiance_at(rgb, &p.radiance, azimuth, 30);
             bright += rgb[2] > 1;
         }
         OK(told ? bright == 0 : bright > n / 4, "behind the camera the sky of the picture is %s mirrored (%d of %d)", told ? "not" : "also", bright, n);
@@ -183,12 +187,12 @@ static void over_a_place(const struct light *light)
     in.place = mesh;
     in.place_depth = &depth;
     if (OK(panorama_create(&p, &in, &err), "over a place")) {
-        near_radiance(&p.mirrored, 90, 10, 0.8, 0.2, 0.2, "what the picture shows on a wall is there");
-        near_radiance(&p.mirrored, 90, 3, 0.2, 0.2, 0.2, "and not lower");
-        near_radiance(&p.mirrored, 90, -20, 0.2, 0.2, 0.2, "below the horizon the ground is as the picture shows it");
-        near_radiance(&p.mirrored, 270, 3, 0.43172, 0.43172, 0.43172, "a wall that the picture does not show has the mesh's colour");
+        near_radiance(&p.radiance, 90, 10, 0.8, 0.2, 0.2, "what the picture shows on a wall is there");
+        near_radiance(&p.radiance, 90, 3, 0.2, 0.2, 0.2, "and not lower");
+        near_radiance(&p.radiance, 90, -20, 0.2, 0.2, 0.2, "below the horizon the ground is as the picture shows it");
+        near_radiance(&p.radiance, 270, 3, 0.43172, 0.43172, 0.43172, "a wall that the picture does not show has the mesh's colour");
         double sky[3], model[3];
-        radiance_at(sky, &p.mirrored, 270, 30);
+        radiance_at(sky, &p.radiance, 270, 30);
         light_sky_radiance(model, light, vec3(0, -cos(M_PI / 6), sin(M_PI / 6)));
         NEAR(sky[2], model[2], 0.03 * model[2], "above it is the sky");
         panorama_release(&p);
@@ -197,7 +201,7 @@ static void over_a_place(const struct light *light)
     for (int y = 195; y < 215; y++)
         for (int x = 205; x < 240; x++) *image_f32(&depth, x, y) = 8;
     if (OK(panorama_create(&p, &in, &err), "with something before it")) {
-        near_radiance(&p.mirrored, 88, 10, 0.43172, 0.43172, 0.43172, "beside an outline of the mesh its own colour counts");
+        near_radiance(&p.radiance, 88, 10, 0.43172, 0.43172, 0.43172, "beside an outline of the mesh its own colour counts");
         panorama_release(&p);
     }
     static_mesh_destroy(mesh);
@@ -230,15 +234,15 @@ static void beyond(const struct light *light)
     in.place = mesh;
     in.place_depth = &depth;
     if (OK(panorama_create(&p, &in, &err), "all of it")) {
-        near_radiance(&p.mirrored, 90, 5, 0.8, 0.2, 0.2, "the board is there");
+        near_radiance(&p.radiance, 90, 5, 0.8, 0.2, 0.2, "the board is there");
         panorama_release(&p);
     }
     in.beyond_m = 20;
     if (OK(panorama_create(&p, &in, &err), "what is 20 m away and more")) {
-        near_radiance(&p.mirrored, 90, 5, 0.43172, 0.43172, 0.43172, "in place of the board is the wall behind it, in the mesh's colour");
-        near_radiance(&p.mirrored, 90, -2.5, 0.43172, 0.43172, 0.43172, "and the ground behind it");
-        near_radiance(&p.mirrored, 120, 5, 0.2, 0.2, 0.2, "beside it the wall is as the picture shows it");
-        near_radiance(&p.mirrored, 60, -20, 0.2, 0.2, 0.2, "ground stays, though it is nearer");
+        near_radiance(&p.radiance, 90, 5, 0.43172, 0.43172, 0.43172, "in place of the board is the wall behind it, in the mesh's colour");
+        near_radiance(&p.radiance, 90, -2.5, 0.43172, 0.43172, 0.43172, "and the ground behind it");
+        near_radiance(&p.radiance, 120, 5, 0.2, 0.2, 0.2, "beside it the wall is as the picture shows it");
+        near_radiance(&p.radiance, 60, -20, 0.2, 0.2, 0.2, "ground stays, though it is nearer");
         panorama_release(&p);
     }
     static_mesh_destroy(mesh);
@@ -274,19 +278,19 @@ static void past_a_place(const struct light *light)
     if (OK(panorama_create(&p, &in, &err), "past its end")) {
         double aside = degrees(atan2(90, 200)), up = degrees(atan2(25, hypot(90, 200))), sky[3], model[3];
         OK(!(p.radius_m > 0), "nothing stands on a circle");
-        near_radiance(&p.mirrored, 90 - aside, up, 0.8, 0.2, 0.2, "what is above the horizon is in the direction in which the camera sees it");
-        near_radiance(&p.mirrored, 90 - aside - 5, up, 0.2, 0.2, 0.2, "and not further aside, as if it were near");
-        near_radiance(&p.mirrored, 90 - aside, up + 4, 0.2, 0.2, 0.2, "nor higher");
-        near_radiance(&p.mirrored, 90 - degrees(atan2(10, 30)), -degrees(atan2(1, hypot(10, 30))), 0.2, 0.2, 0.8, "ground is where it lies: 30 m from here, 10 m aside");
-        near_radiance(&p.mirrored, 90, -degrees(atan2(1, 30)), 0.2, 0.2, 0.2, "beside it is what the picture shows beside it");
-        near_radiance(&p.mirrored, 90 - degrees(atan2(50, 200)), -degrees(atan2(30, hypot(50, 200))), 0.2, 0.2, 0.2, "the place is nearer than it");
-        near_radiance(&p.mirrored, 90 - degrees(atan2(50, 200)), -0.9, 0.2, 0.2, 0.2, "and farther off it ends");
+        near_radiance(&p.radiance, 90 - aside, up, 0.8, 0.2, 0.2, "what is above the horizon is in the direction in which the camera sees it");
+        near_radiance(&p.radiance, 90 - aside - 5, up, 0.2, 0.2, 0.2, "and not further aside, as if it were near");
+        near_radiance(&p.radiance, 90 - aside, up + 4, 0.2, 0.2, 0.2, "nor higher");
+        near_radiance(&p.radiance, 90 - degrees(atan2(10, 30)), -degrees(atan2(1, hypot(10, 30))), 0.2, 0.2, 0.8, "ground is where it lies: 30 m from here, 10 m aside");
+        near_radiance(&p.radiance, 90, -degrees(atan2(1, 30)), 0.2, 0.2, 0.2, "beside it is what the picture shows beside it");
+        near_radiance(&p.radiance, 90 - degrees(atan2(50, 200)), -degrees(atan2(30, hypot(50, 200))), 0.2, 0.2, 0.2, "the place is nearer than it");
+        near_radiance(&p.radiance, 90 - degrees(atan2(50, 200)), -0.9, 0.2, 0.2, 0.2, "and farther off it ends");
         /* Through the middle of the board, 10 degrees up; and to (-18, 40), which it hides. */
-        radiance_at(sky, &p.mirrored, 90 + degrees(atan2(90, 200)), 10);
+        radiance_at(sky, &p.radiance, 90 + degrees(atan2(90, 200)), 10);
         light_sky_radiance(model, light, vec3(-sin(atan2(90, 200)) * cos(M_PI / 18), cos(atan2(90, 200)) * cos(M_PI / 18), sin(M_PI / 18)));
         for (int c = 0; c < 3; c++) NEAR(sky[c], model[c], 0.03 * model[c], "where the picture shows the place there is the sky past it, channel %d", c);
         const float *ground = image_f32(&light->sky, 0, light->sky.height_px - 1);
-        near_radiance(&p.mirrored, 90 + degrees(atan2(18, 30)), -degrees(atan2(1, hypot(18, 30))), (double)ground[0], (double)ground[1], (double)ground[2],
+        near_radiance(&p.radiance, 90 + degrees(atan2(18, 30)), -degrees(atan2(1, hypot(18, 30))), (double)ground[0], (double)ground[1], (double)ground[2],
                       "or the light's own ground");
         panorama_release(&p);
     }

@@ -90,7 +90,6 @@ static bool render(struct image *pass, const struct light *light, const struct e
             ok = ok && image_write(map, &circle.map, &err);
             free(map);
             strcpy(around.sky_map, "frames/panorama.exr");
-            strcpy(around.mirrored_sky_map, "frames/panorama.exr");
             around.seen_from_m = circle.from_m;
             around.circle_m = circle.centre_m;
             around.circle_radius_m = circle.radius_m;
@@ -101,7 +100,7 @@ static bool render(struct image *pass, const struct light *light, const struct e
                 free(relief);
                 free(hidden);
                 strcpy(around.relief_include, "frames/relief.inc");
-                strcpy(around.relief_map, around.mirrored_sky_map);
+                strcpy(around.relief_map, around.sky_map);
             }
         }
         p.surroundings = &around;
