@@ -115,9 +115,9 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
          open_sight(&past_entities, NULL, NULL, f, err) && frame_write_surroundings(&surroundings, f, past_entities, err) &&
          open_sight(&sight, &around, &surroundings, f, err) &&
          (!f->stage->mesh || write_shades(&files, &shades, f, &surroundings.sun_share, err)) && light_ground(&ground, sight, f, err) && passes_write(f->folder, &passes, err);
-    frame_release_surroundings(&surroundings);
     sky_sight_destroy(past_entities);
     sky_sight_destroy(sight);
+    frame_release_surroundings(&surroundings);
     shaded_ground_release(&ground);
     static_cut_release(&around);
     static_cut_release(&shades);

@@ -196,7 +196,7 @@ static bool write_sky(struct pass_surroundings *out, const double color_gain[3],
     return true;
 }
 
-/* Over a place, what the mirrored map shows stands where it stands. */
+/* Over a place, what the panorama shows stands where it stands. */
 static bool write_relief(struct pass_surroundings *out, const double color_gain[3], const struct frame *f, struct error *err)
 {
     if (!f->stage->mesh) return true;

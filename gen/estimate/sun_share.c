@@ -294,14 +294,27 @@ void sun_share_release(struct sun_share *share)
     image_release(&share->through);
 }
 
-double sun_share_at(const struct sun_share *share, struct vec2 at)
+/* The map's value at a place of the plane, 0 to 1; beyond it, and without one, as told. */
+static double value_at(const struct sun_share *share, const struct image *map, struct vec2 at, double beyond)
 {
-    const struct image *map = &share->map;
-    if (!map->data) return 1;
+    if (!map->data) return beyond;
     double x = (at.x - share->low_m.x) / (share->high_m.x - share->low_m.x) * map->width_px;
     double y = (share->high_m.y - at.y) / (share->high_m.y - share->low_m.y) * map->height_px;
-    if (!(x >= 0 && y >= 0 && x < map->width_px && y < map->height_px)) return 1;
+    if (!(x >= 0 && y >= 0 && x < map->width_px && y < map->height_px)) return beyond;
     return *image_u8(map, (int)x, (int)y) / 255.0;
+}
+
+double sun_share_at(const struct sun_share *share, struct vec2 at)
+{
+    return value_at(share, &share->map, at, 1);
+}
+
+double sun_share_past(const struct sun_share *share, struct vec3 p, struct vec3 towards_sun, bool cast)
+{
+    if (!share || !share->map.data) return cast ? 0 : 1;
+    struct vec3 foot = along_sun(&share->ground, towards_sun, p);
+    struct vec2 at = { foot.x, foot.y };
+    return cast && !(value_at(share, &share->through, at, 0) > 0.5) ? 0 : sun_share_at(share, at);
 }
 
 /* Does the map tell of what a triangle can shade? */

@@ -50,5 +50,7 @@ bool sun_share_part(size_t count[TOLD_KINDS], const struct sun_share *share, str
 
 /* At world x, y of the plane, by the map alone: 0 to 1. */
 double sun_share_at(const struct sun_share *share, struct vec2 at_m);
+/* At a point above or below it, past a place that does or does not cast shade there; share may be NULL: the place alone counts. */
+double sun_share_past(const struct sun_share *share, struct vec3 p_m, struct vec3 towards_sun, bool cast);
 
 #endif

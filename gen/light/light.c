@@ -261,6 +261,7 @@ void light_sample_sky(struct sky_light *lights, size_t n, const struct light *li
             lights[i].color[c] = (double)p[c] / step * total / ((double)n * lights[i].direction.z);
             got[c] += lights[i].color[c] * lights[i].direction.z;
         }
+        lights[i].solid_angle = total / ((double)n * lights[i].direction.z * step);
     }
     level_irradiance(want, sky);
     for (size_t i = 0; i < n; i++)

@@ -29,6 +29,7 @@ struct light {
 struct sky_light {
     struct vec3 direction;      /* unit, towards the light, above the horizon */
     double color[3];            /* normal irradiance / pi */
+    double solid_angle;         /* / pi */
 };
 
 /* Sun and sky of a scene. The sky below the horizon has the colour of the ground.

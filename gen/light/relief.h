@@ -1,4 +1,4 @@
-/* The place round the entities as mirrors meet it: a coarse surface of what is seen from among them, as far away as it is.
+/* The place round the entities as light and mirrors meet it: a coarse surface of what is seen from among them, as far away as it is.
  * The panorama is its picture. What is not seen from there is not on it, but for level ground that has its orthophoto: that is
  * all there, also behind a parked car, and lies in sun and sky, so that entities shade it. */
 #ifndef STAFFAGE_GEN_RELIEF_H

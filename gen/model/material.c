@@ -69,14 +69,15 @@ double material_alpha(const struct material *material, double u, double v)
 
 void material_reflectance(double rgb[3], const struct material *m, const double *paint, double u, double v)
 {
-    const double *color = paint && m->kind == FINISH_PAINT ? paint : m->base_color;
+    bool painted = paint && m->kind == FINISH_PAINT;
+    const double *color = painted ? paint : m->base_color;
     const struct image *image = &m->base_image;
     double f0 = pow((m->ior - 1) / (m->ior + 1), 2), smooth = pow(1 - m->roughness, 2);
     double gloss = (f0 + (1 - f0) / 21) * fmax(m->clearcoat, smooth * (1 - m->metallic)); /* Schlick's, over the hemisphere */
     double matte = m->transmission > 0 || m->kind == FINISH_GLASS ? GLASS_MATTE * (1 - m->transmission)
                                                                   : 1 - m->metallic + m->metallic * (0.8 + 0.2 * smooth);
     for (int c = 0; c < 3; c++) rgb[c] = color[c] * matte;
-    if (image->data) {
+    if (image->data && !painted) {
         const uint8_t *texels = image_u8(image, (int)texel(u, image->width_px), (int)texel(1 - v, image->height_px));
         for (int c = 0; c < 3; c++) rgb[c] *= (double)linear_from_srgb((float)texels[c] / 255);
     }

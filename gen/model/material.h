@@ -48,7 +48,7 @@ void material_default(struct material *material);
 double material_alpha(const struct material *material, double u, double v);
 
 /* Of light from all around, the share that the surface sends back, as if it were matte (position as above).
- * In: paint  the colour of FINISH_PAINT materials, linear; NULL: their own */
+ * In: paint  the colour of FINISH_PAINT materials, linear; NULL: their own. It counts for all of a texture, also for what is none of the body */
 void material_reflectance(double rgb[3], const struct material *material, const double *paint, double u, double v);
 
 /* The keyword rules: an ordered list, first match wins. */

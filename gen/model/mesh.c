@@ -24,6 +24,14 @@ bool mesh_init(struct mesh *mesh, size_t vertices, size_t triangles, bool with_n
     return true;
 }
 
+void mesh_uv_at(double uv[2], const struct mesh *mesh, size_t triangle, double u, double v)
+{
+    const double weight[3] = { 1 - u - v, u, v };
+    uv[0] = uv[1] = 0;
+    for (int k = 0; mesh->uv && k < 3; k++)
+        for (int i = 0; i < 2; i++) uv[i] += weight[k] * (double)mesh->uv[mesh->triangle[triangle][k]][i];
+}
+
 void mesh_release(struct mesh *mesh)
 {
     free(mesh->position_m);

@@ -23,6 +23,9 @@ struct mesh {
 bool mesh_init(struct mesh *mesh, size_t vertices, size_t triangles, bool with_normals, bool with_uv, struct error *err);
 void mesh_release(struct mesh *mesh);
 
+/* Texture position of a point of a triangle, at the weights u and v of its second and third corner; (0, 0) without texture. */
+void mesh_uv_at(double uv[2], const struct mesh *mesh, size_t triangle, double u, double v);
+
 /* Check and tidy: triangles without area and vertices that no triangle uses go; a normal that is
  * missing (all of them, when mesh->normal is NULL; or one of length 0) is computed, smooth over
  * edges that bend by less than MESH_SMOOTH_DEG.

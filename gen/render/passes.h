@@ -65,7 +65,7 @@ struct passes {
     const struct shaded_ground *receivers; /* lit */
     /* Of place_include_write and shades_include_write, relative to the output folder; NULL: the ground is a plane. */
     const char *place_include, *shades_include;
-    const struct pass_surroundings *surroundings; /* of the object pass, but for sun_share; NULL: bare ground of the scene's albedo under the sky */
+    const struct pass_surroundings *surroundings; /* of the object pass, but for sun_share and lighting; NULL: bare ground of the scene's albedo under the sky */
 };
 
 /* Write object.pov, plane.pov and shadow.pov into frame_folder. */

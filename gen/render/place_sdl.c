@@ -144,7 +144,7 @@ bool relief_include_write(const char *path, const struct relief *relief, const s
 {
     struct sdl sdl;
     sdl_init(&sdl);
-    sdl_header(&sdl, "the place as mirrors meet it, seen from among the entities of a frame: metres, world");
+    sdl_header(&sdl, "the place as light and mirrors meet it, seen from among the entities of a frame: metres, world");
     write_part(&sdl, "Relief", &relief->seen);
     write_part(&sdl, "Relief_Ground", &relief->ground);
     if (hidden && hidden->part.triangles) write_hidden(&sdl, hidden, hidden_map);

@@ -28,7 +28,7 @@ static void tint_of(double axis[3], const struct light *light, const double open
         for (int a = 0; a < 3; a++)
             for (int b = 0; b < 3; b++) spread[a][b] += part[i].direction.z * part[i].direction.z * rest[a] * rest[b];
     }
-    axis[0] = 1, axis[1] = 0, axis[2] = -1; /* from red to blue, unless told otherwise */
+    axis[0] = 1, axis[1] = axis[2] = -0.2126 / (1 - 0.2126); /* of a white sky from cyan to red, at no luminance: what it meets may have a colour */
     for (int k = 0; k < 30; k++) {
         for (int a = 0; a < 3; a++) next[a] = dot(spread[a], axis);
         double norm = sqrt(dot(next, next));

@@ -1,5 +1,5 @@
 /* The sky's light on a mesh, told to POV-Ray as uv: how much of it there is, and how far its colour is from the open sky's. A sky
- * between two colours, as white and blue, is told exactly. */
+ * between two colours, as white and blue, is told exactly; of other colours, that things send back, what lies between these and the luminance. */
 #ifndef STAFFAGE_GEN_SKY_UV_H
 #define STAFFAGE_GEN_SKY_UV_H
 

@@ -1,6 +1,7 @@
 #include "gen/trace/exitance.h"
 
 #include "gen/light/sky_image.h"
+#include "gen/trace/sky_sight.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,20 +14,17 @@ struct received { bool known; float above[3], ground[3]; /* sun and sky; what th
 
 struct exitance {
     const struct entity *entity;
-    const struct shape *shape;
     struct entity_light in;
-    struct pose entity_from_world;
     struct received **received; /* (meshes) each (triangles, 2): the front, the back */
 };
 
-bool exitance_create(struct exitance **exitance, const struct entity *entity, const struct shape *shape, const struct entity_light *in,
-                     struct error *err)
+bool exitance_create(struct exitance **exitance, const struct entity *entity, const struct entity_light *in, struct error *err)
 {
     const struct model *model = entity->model;
     struct exitance *e = calloc(1, sizeof *e);
     bool ok = e;
     if (ok) {
-        *e = (struct exitance){ entity, shape, *in, pose_inverse(entity->world_from_entity), calloc(model->mesh_count + 1, sizeof *e->received) };
+        *e = (struct exitance){ entity, *in, calloc(model->mesh_count + 1, sizeof *e->received) };
         ok = e->received;
     }
     for (size_t i = 0; ok && i < model->mesh_count; i++)
@@ -64,59 +62,40 @@ static void round_normal(struct vec3 direction[RAYS], struct vec3 normal)
     }
 }
 
-/* How much of the sun reaches a surface. In: p, normal  in entity coordinates */
-static double sun_on(const struct exitance *e, struct vec3 p, struct vec3 normal)
-{
-    const struct entity_light *in = &e->in;
-    if (!in->light->has_sun) return 0;
-    struct vec3 towards = in->light->sun_direction, from_entity = mat3_apply(e->entity_from_world.rotation, towards);
-    double cosine = vec3_dot(normal, from_entity);
-    float left = 1;
-    if (!(cosine > 0)) return 0;
-    shape_shade(e->shape, &left, p, &from_entity, 1);
-    struct vec3 world = pose_apply(e->entity->world_from_entity, p);
-    if (!(left > 0) || (in->place && cut_rays_blocked(in->place, world, towards))) return 0;
-    if (in->sun_share && in->sun_share->map.data) {
-        const struct plane *ground = &in->sun_share->ground;
-        double down = (vec3_dot(world, ground->normal) - ground->offset_m) / fmax(vec3_dot(towards, ground->normal), 1e-3);
-        struct vec3 foot = vec3_sub(world, vec3_scale(towards, down));
-        cosine *= sun_share_at(in->sun_share, (struct vec2){ foot.x, foot.y });
-    }
-    return (double)left * cosine;
-}
-
-static void receive(struct received *out, const struct exitance *e, struct vec3 p, struct vec3 normal)
+/* In: p, normal  world */
+static void receive(struct received *out, const struct entity_light *in, struct vec3 p, struct vec3 normal)
 {
     struct vec3 direction[RAYS];
     float left[RAYS];
-    double sun = sun_on(e, p, normal);
+    double sun = in->light->has_sun ? fmax(0, vec3_dot(normal, in->light->sun_direction)) : 0;
+    if (sun > 0) sun *= sky_sight_sun(in->sight, p);
     round_normal(direction, normal);
     for (int i = 0; i < RAYS; i++) left[i] = 1;
-    shape_shade(e->shape, left, p, direction, RAYS);
+    sky_sight_shade(in->sight, left, p, direction, RAYS);
     *out = (struct received){ .known = true };
     for (int i = 0; i < RAYS; i++) {
-        struct vec3 world = mat3_apply(e->entity->world_from_entity.rotation, direction[i]);
-        const float *radiance = sky_radiance(e->in.around, world);
-        for (int c = 0; c < 3; c++) (world.z > 0 ? out->above : out->ground)[c] += left[i] * radiance[c] / RAYS;
+        const float *radiance = sky_radiance(in->around, direction[i]);
+        for (int c = 0; c < 3; c++) (direction[i].z > 0 ? out->above : out->ground)[c] += left[i] * radiance[c] / RAYS;
     }
-    for (int c = 0; c < 3; c++) out->above[c] += (float)(sun * e->in.light->sun_color[c]);
+    for (int c = 0; c < 3; c++) out->above[c] += (float)(sun * in->light->sun_color[c]);
 }
 
-void exitance_at(double rgb[3], struct exitance *e, const struct shape_point *at, struct vec3 direction, double ground_left)
+void exitance_radiance(double rgb[3], struct exitance *e, const struct shape_point *at, struct vec3 direction, double ground_left)
 {
     const struct model *model = e->entity->model;
     const struct mesh *mesh = &model->meshes[at->mesh];
     const struct material *material = &model->materials[mesh->material];
     struct vec3 a = corner_of(mesh, at->triangle, 0), b = corner_of(mesh, at->triangle, 1), c = corner_of(mesh, at->triangle, 2);
-    struct vec3 normal = vec3_unit(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)));
+    struct vec3 normal = vec3_cross(vec3_sub(b, a), vec3_sub(c, a)), middle = vec3_scale(vec3_add(a, vec3_add(b, c)), 1.0 / 3);
     bool back = vec3_dot(normal, direction) > 0;
-    if (back) normal = vec3_scale(normal, -1);
     struct received *received = &e->received[at->mesh][2 * at->triangle + back];
-    struct vec3 middle = vec3_scale(vec3_add(a, vec3_add(b, c)), 1.0 / 3);
-    if (!received->known) receive(received, e, vec3_add(middle, vec3_scale(normal, OFF_SURFACE_M)), normal);
-    double uv[2] = { 0, 0 }, weight[3] = { 1 - at->u - at->v, at->u, at->v };
-    for (int k = 0; mesh->uv && k < 3; k++)
-        for (int i = 0; i < 2; i++) uv[i] += weight[k] * (double)mesh->uv[mesh->triangle[at->triangle][k]][i];
+    if (!received->known && vec3_norm(normal) > 0) {
+        normal = vec3_scale(normal, (back ? -1 : 1) / vec3_norm(normal));
+        middle = vec3_add(middle, vec3_scale(normal, OFF_SURFACE_M));
+        receive(received, &e->in, pose_apply(e->entity->world_from_entity, middle), mat3_apply(e->entity->world_from_entity.rotation, normal));
+    }
+    double uv[2];
+    mesh_uv_at(uv, mesh, at->triangle, at->u, at->v);
     material_reflectance(rgb, material, e->entity->has_color ? e->entity->color : NULL, uv[0], uv[1]);
     for (int i = 0; i < 3; i++) rgb[i] *= (double)received->above[i] + ground_left * (double)received->ground[i];
 }

@@ -32,11 +32,9 @@ static double alpha_at(const struct RTCFilterFunctionNArguments *args, unsigned 
     if (!masked->mesh->uv) return material_alpha(masked->material, 0, 0);
     const float *u = (const float *)(const void *)args->hit + 3 * args->N, *v = u + args->N;
     const unsigned *triangle = (const unsigned *)(const void *)args->hit + 5 * args->N;
-    const uint32_t *corner = masked->mesh->triangle[triangle[i]];
-    const float *a = masked->mesh->uv[corner[0]], *b = masked->mesh->uv[corner[1]], *c = masked->mesh->uv[corner[2]];
-    double kb = (double)u[i], kc = (double)v[i], ka = 1 - kb - kc;
-    return material_alpha(masked->material, ka * (double)a[0] + kb * (double)b[0] + kc * (double)c[0],
-                          ka * (double)a[1] + kb * (double)b[1] + kc * (double)c[1]);
+    double uv[2];
+    mesh_uv_at(uv, masked->mesh, triangle[i], (double)u[i], (double)v[i]);
+    return material_alpha(masked->material, uv[0], uv[1]);
 }
 
 static void pass_holes(const struct RTCFilterFunctionNArguments *args)
@@ -186,16 +184,37 @@ void shape_hits(const struct shape *shape, double *range_m, struct vec3 origin_m
         hit_batch(shape, range_m + at, origin_m, directions + at, n - at < BATCH ? n - at : BATCH);
 }
 
-bool shape_meet(const struct shape *shape, struct shape_point *point, struct vec3 o, struct vec3 d)
+/* Texels of BLEND that are not there at all. */
+static bool is_hole(const struct shape *shape, const struct shape_point *p)
+{
+    const struct mesh *mesh = &shape->model->meshes[p->mesh];
+    const struct material *material = &shape->model->materials[mesh->material];
+    if (material->alpha_mode != ALPHA_BLEND || !mesh->uv) return false;
+    double uv[2];
+    mesh_uv_at(uv, mesh, p->triangle, p->u, p->v);
+    return material_alpha(material, uv[0], uv[1]) == 0;
+}
+
+static bool first_hit(const struct shape *shape, struct shape_point *point, struct vec3 o, struct vec3 d, double near_m)
 {
     struct RTCRayHit hit = { .ray = { .org_x = (float)o.x, .org_y = (float)o.y, .org_z = (float)o.z, .dir_x = (float)d.x,
-                                      .dir_y = (float)d.y, .dir_z = (float)d.z, .tnear = NEAR_M, .tfar = FLT_MAX, .mask = UINT32_MAX },
+                                      .dir_y = (float)d.y, .dir_z = (float)d.z, .tnear = (float)near_m, .tfar = FLT_MAX, .mask = UINT32_MAX },
                              .hit = { .geomID = RTC_INVALID_GEOMETRY_ID, .instID = { RTC_INVALID_GEOMETRY_ID } } };
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcIntersect1(shape->scene, &context, &hit);
     *point = (struct shape_point){ hit.hit.geomID, hit.hit.primID, (double)hit.ray.tfar, (double)hit.hit.u, (double)hit.hit.v };
     return hit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+}
+
+bool shape_meet(const struct shape *shape, struct shape_point *point, struct vec3 origin, struct vec3 direction)
+{
+    double near = (double)NEAR_M;
+    while (first_hit(shape, point, origin, direction, near)) {
+        if (!is_hole(shape, point)) return true;
+        near = point->range_m + (double)NEAR_M;
+    }
+    return false;
 }
 
 void shape_shade(const struct shape *shape, float *share, struct vec3 origin_m, const struct vec3 *directions, size_t n)

@@ -16,10 +16,8 @@ bool sky_rays_init(struct sky_rays *rays, const struct light *light, size_t n, s
     bool ok = sampled && rays->direction && rays->solid_angle && rays->color;
     if (ok) light_sample_sky(sampled, n, light);
     for (size_t i = 0; ok && i < n; i++) {
-        double radiance[3];
-        light_sky_radiance(radiance, light, sampled[i].direction);
         rays->direction[i] = sampled[i].direction;
-        rays->solid_angle[i] = luminance_of(sampled[i].color) / fmax(luminance_of(radiance), 1e-9);
+        rays->solid_angle[i] = sampled[i].solid_angle;
         memcpy(rays->color[i], sampled[i].color, sizeof rays->color[i]);
     }
     free(sampled);
@@ -34,15 +32,21 @@ void sky_rays_release(struct sky_rays *rays)
     *rays = (struct sky_rays){ 0 };
 }
 
+void sky_ray_color(double color[3], const struct sky_rays *rays, size_t ray, const struct image *radiance)
+{
+    const float *rgb = sky_radiance(radiance, rays->direction[ray]);
+    for (int c = 0; c < 3; c++) color[c] = rays->solid_angle[ray] * (double)rgb[c];
+}
+
 /* By so much the radiance round is brought to what level ground receives of the sky. */
 static void match_sky(double gain[3], const struct sky_rays *rays, const struct image *radiance)
 {
-    double sky[3] = { 0, 0, 0 }, round[3] = { 0, 0, 0 };
+    double sky[3] = { 0, 0, 0 }, round[3] = { 0, 0, 0 }, color[3];
     for (size_t i = 0; i < rays->n; i++) {
-        const float *rgb = sky_radiance(radiance, rays->direction[i]);
+        sky_ray_color(color, rays, i, radiance);
         for (int c = 0; c < 3; c++) {
             sky[c] += rays->direction[i].z * rays->color[i][c];
-            round[c] += rays->direction[i].z * rays->solid_angle[i] * (double)rgb[c];
+            round[c] += rays->direction[i].z * color[c];
         }
     }
     for (int c = 0; c < 3; c++) gain[c] = sky[c] / fmax(round[c], 1e-9);
@@ -60,7 +64,7 @@ void sky_rays_round(double (*color)[3], const struct sky_rays *rays, const struc
         double level = fmax(hypot(d.x, d.y), 1e-9);
         double beyond = receiver_reach(receiver, from, (struct vec2){ d.x / level, d.y / level }) / level;
         if (round->place && !static_mesh_blocks(round->place, from, d, beyond, beyond + FAR_M)) continue;
-        const float *rgb = sky_radiance(round->radiance, d);
-        for (int c = 0; c < 3; c++) color[i][c] = rays->solid_angle[i] * (double)rgb[c] * gain[c];
+        sky_ray_color(color[i], rays, i, round->radiance);
+        for (int c = 0; c < 3; c++) color[i][c] *= gain[c];
     }
 }

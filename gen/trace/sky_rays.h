@@ -1,5 +1,5 @@
-/* The sky as some hundred directions, the same for every point and every frame, so that what does not move keeps its shade; and
- * what light comes along them where something stands before it. */
+/* The sky as some hundred directions, the same for every point and every frame; and what light comes along them where something
+ * stands before it. Below the bare sky what does not move keeps its shade to the last bit; what stands round is found anew for each frame. */
 #ifndef STAFFAGE_GEN_SKY_RAYS_H
 #define STAFFAGE_GEN_SKY_RAYS_H
 
@@ -23,13 +23,16 @@ struct sky_rays {
 bool sky_rays_init(struct sky_rays *rays, const struct light *light, size_t n, struct error *err);
 void sky_rays_release(struct sky_rays *rays);
 
+/* What comes along a ray from an image of radiances, laid out as sky_image.h says. */
+void sky_ray_color(double color[3], const struct sky_rays *rays, size_t ray, const struct image *radiance);
+
 /* What stands round. All borrowed. */
 struct sky_round {
     const struct image *radiance;    /* of all directions, laid out as sky_image.h says; NULL: there is the sky alone */
     const struct static_mesh *place; /* NULL: all that stands round is in the radiance, and level ground receives as much as of the sky */
 };
 
-/* Light beyond a receiver: from a point in it, what the place has farther off shines with the radiance round.
+/* Light beyond a receiver: from a point in it, what the place has farther off shines with the radiance round in its direction.
  * Out: color (n) as struct sky_rays */
 void sky_rays_round(double (*color)[3], const struct sky_rays *rays, const struct sky_round *round, const struct receiver *receiver,
                     struct vec3 from_m);

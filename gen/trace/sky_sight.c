@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FAR_M 1e5
+#define ROUGH_M 0.5
 #define LOOK_M 0.5 /* so high above its foot what stands round an entity is looked for */
 
 /* An entity in the sky's way. */
@@ -29,9 +29,11 @@ struct blocker {
 struct sky_sight {
     struct sky_rays rays;
     struct sky_round round;
-    struct entity_light lit; /* without a radiance around: entities send nothing back */
-    float *open, *share, *past; /* (rays) room for one point's: past the place, past entities too, and past one of them */
-    double (*color)[3];         /* (rays) and what comes along them */
+    const struct light *light;
+    const struct sun_share *sun_share;
+    bool *walled;               /* (rays) room for one point's: does the near place end them, farther than ROUGH_M, */
+    float *open, *share, *past; /* do they bring light, what of it comes past entities, and past one of them, */
+    double (*color)[3];         /* and the light */
     struct cut_rays *near; /* of the place; or NULL */
     struct blocker *blockers;
     size_t blocker_count;
@@ -41,7 +43,7 @@ bool sky_sight_create(struct sky_sight **sight, const struct sky_sight_input *in
 {
     size_t n = in->directions;
     struct sky_sight *s = calloc(1, sizeof *s);
-    bool ok = s && (s->open = calloc(n + 1, sizeof *s->open)) && (s->share = calloc(n + 1, sizeof *s->share)) &&
+    bool ok = s && (s->walled = calloc(n + 1, sizeof *s->walled)) && (s->open = calloc(n + 1, sizeof *s->open)) && (s->share = calloc(n + 1, sizeof *s->share)) &&
               (s->past = calloc(n + 1, sizeof *s->past)) && (s->color = calloc(n + 1, sizeof *s->color));
     if (!ok) error_set(err, ERR_MEMORY, "no memory for the sky's directions");
     ok = ok && sky_rays_init(&s->rays, in->light, n, err) &&
@@ -51,7 +53,8 @@ bool sky_sight_create(struct sky_sight **sight, const struct sky_sight_input *in
         return false;
     }
     s->round = in->round;
-    s->lit = (struct entity_light){ in->light, in->round.radiance, s->near, in->sun_share };
+    s->light = in->light;
+    s->sun_share = in->sun_share;
     *sight = s;
     return true;
 }
@@ -86,7 +89,7 @@ bool sky_sight_add(struct sky_sight *s, const struct tracer *tracer, const struc
                          .direction = calloc(n + 1, sizeof *b.direction), .color = calloc(n + 1, sizeof *b.color) };
     bool ok = (b.direction && b.color) || error_set(err, ERR_MEMORY, "no memory for what is in the sky's way");
     ok = ok && tracer_shape(&b.shape, &b.own, tracer, entity->model, err) &&
-         (!s->lit.around || exitance_create(&b.exitance, entity, b.shape, &s->lit, err));
+         (!s->round.radiance || exitance_create(&b.exitance, entity, &(struct entity_light){ s->light, s->round.radiance, s }, err));
     if (!ok) {
         blocker_release(&b);
         return false;
@@ -105,6 +108,7 @@ void sky_sight_destroy(struct sky_sight *s)
     free(s->blockers);
     cut_rays_destroy(s->near);
     sky_rays_release(&s->rays);
+    free(s->walled);
     free(s->open);
     free(s->share);
     free(s->past);
@@ -125,6 +129,30 @@ bool sky_sight_hidden(const struct sky_sight *s, struct vec3 p, struct vec3 eye)
     return false;
 }
 
+void sky_sight_shade(const struct sky_sight *s, float *share, struct vec3 p, const struct vec3 *directions, size_t n)
+{
+    enum { BATCH = 32 };
+    struct vec3 turned[BATCH];
+    for (size_t k = 0; k < s->blocker_count; k++) {
+        const struct blocker *b = &s->blockers[k];
+        struct vec3 from = pose_apply(b->entity_from_world, p);
+        for (size_t at = 0; at < n; at += BATCH) {
+            size_t some = n - at < BATCH ? n - at : BATCH;
+            for (size_t i = 0; i < some; i++) turned[i] = mat3_apply(b->entity_from_world.rotation, directions[at + i]);
+            shape_shade(b->shape, share + at, from, turned, some);
+        }
+    }
+}
+
+double sky_sight_sun(const struct sky_sight *s, struct vec3 p)
+{
+    struct vec3 towards = s->light->sun_direction;
+    float left = s->light->has_sun;
+    sky_sight_shade(s, &left, p, &towards, 1);
+    if (!(left > 0)) return 0;
+    return (double)left * sun_share_past(s->sun_share, p, towards, s->near && cut_rays_blocked(s->near, p, towards, INFINITY));
+}
+
 double sky_sight_distance(const struct sky_sight *s, struct vec3 p)
 {
     double nearest = INFINITY;
@@ -136,6 +164,20 @@ double sky_sight_distance(const struct sky_sight *s, struct vec3 p)
 }
 
 /* --- one point --- */
+
+/* What ends a point's rays near by brings what stands round there, if that is known; but for the ground itself, which a reconstruction
+ * has rough: as it is smooth, what it hides tells nothing. */
+static void meet_near(const struct sky_sight *s, struct vec3 p, struct vec3 normal)
+{
+    for (size_t i = 0; i < s->rays.n; i++) {
+        struct vec3 d = s->rays.direction[i];
+        bool up = vec3_dot(d, normal) > 0;
+        bool ended = up && s->near && cut_rays_blocked(s->near, p, d, INFINITY);
+        s->walled[i] = ended && s->round.radiance && !cut_rays_blocked(s->near, p, d, ROUGH_M);
+        s->share[i] = s->open[i] = up && (!ended || s->walled[i]);
+        if (s->walled[i]) sky_ray_color(s->color[i], &s->rays, i, s->round.radiance);
+    }
+}
 
 /* What comes along the rays to the receivers that a point lies in. */
 static void mix_colors(const struct sky_sight *s, struct vec3 p)
@@ -166,11 +208,10 @@ static void gather(double rgb[3], const struct sky_sight *s, const float *share,
 /* What a point receives with entities, of level ground's in the open. */
 static double left_of(const struct sky_sight *s, const double sky[3], struct vec3 p, struct vec3 normal)
 {
-    const struct light *light = s->lit.light;
+    const struct light *light = s->light;
     double all[3] = { sky[0], sky[1], sky[2] };
-    bool lit = light->has_sun && !(s->near && cut_rays_blocked(s->near, p, light->sun_direction)) &&
-               !sky_sight_hidden(s, p, vec3_add(p, vec3_scale(light->sun_direction, FAR_M)));
-    for (int c = 0; lit && c < 3; c++) all[c] += fmax(0, vec3_dot(normal, light->sun_direction)) * light->sun_color[c];
+    double sun = light->has_sun ? fmax(0, vec3_dot(normal, light->sun_direction)) * sky_sight_sun(s, p) : 0;
+    for (int c = 0; c < 3; c++) all[c] += sun * light->sun_color[c];
     return luminance_of(all) / luminance_of(light->irradiance);
 }
 
@@ -198,28 +239,37 @@ static void add_sent_back(double rgb[3], const struct sky_sight *s, struct vec3 
         double weight = (double)(s->open[i] - s->share[i]) * s->rays.solid_angle[i] * vec3_dot(s->rays.direction[i], normal);
         const struct blocker *b = weight > 0 ? meet(&point, s, p, i) : NULL;
         if (!b) continue;
-        exitance_at(radiance, b->exitance, &point, b->direction[i], left);
+        exitance_radiance(radiance, b->exitance, &point, b->direction[i], left);
         for (int c = 0; c < 3; c++) rgb[c] += weight * radiance[c];
     }
+}
+
+/* An entity takes nothing from rays that the place ends before it. */
+static void spare_walled(const struct sky_sight *s, const struct blocker *b, struct vec3 p)
+{
+    struct vec3 from = pose_apply(b->entity_from_world, p);
+    struct shape_point point;
+    for (size_t i = 0; i < s->rays.n; i++)
+        if (s->walled[i] && s->past[i] < 1 && shape_meet(b->shape, &point, from, b->direction[i]) &&
+            cut_rays_blocked(s->near, p, s->rays.direction[i], point.range_m))
+            s->past[i] = 1;
 }
 
 struct sky_seen sky_sight_at(const struct sky_sight *s, struct vec3 p, struct vec3 normal)
 {
     struct sky_seen seen;
-    for (size_t i = 0; i < s->rays.n; i++) {
-        struct vec3 d = s->rays.direction[i];
-        s->share[i] = s->open[i] = vec3_dot(d, normal) > 0 && !(s->near && cut_rays_blocked(s->near, p, d));
-    }
     mix_colors(s, p);
+    meet_near(s, p, normal);
     gather(seen.without, s, s->open, normal);
     for (size_t k = 0; k < s->blocker_count; k++) {
         const struct blocker *b = &s->blockers[k];
         if (!(b->share > 0)) continue;
         for (size_t i = 0; i < s->rays.n; i++) s->past[i] = s->share[i] > 0;
         shape_shade(b->shape, s->past, pose_apply(b->entity_from_world, p), b->direction, s->rays.n);
+        spare_walled(s, b, p);
         for (size_t i = 0; i < s->rays.n; i++) s->share[i] *= 1 - (float)b->share * (1 - s->past[i]);
     }
     gather(seen.with, s, s->share, normal);
-    if (s->lit.around) add_sent_back(seen.with, s, p, normal);
+    if (s->round.radiance) add_sent_back(seen.with, s, p, normal);
     return seen;
 }

@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -58,10 +59,10 @@ void cut_rays_destroy(struct cut_rays *rays)
     free(rays);
 }
 
-bool cut_rays_blocked(const struct cut_rays *rays, struct vec3 p, struct vec3 d)
+bool cut_rays_blocked(const struct cut_rays *rays, struct vec3 p, struct vec3 d, double reach_m)
 {
     struct RTCRay ray = { .org_x = (float)p.x, .org_y = (float)p.y, .org_z = (float)p.z, .dir_x = (float)d.x,
-                          .dir_y = (float)d.y, .dir_z = (float)d.z, .tnear = NEAR_M, .tfar = FLT_MAX, .mask = UINT32_MAX };
+                          .dir_y = (float)d.y, .dir_z = (float)d.z, .tnear = NEAR_M, .tfar = (float)fmin(reach_m, (double)FLT_MAX), .mask = UINT32_MAX };
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcOccluded1(rays->scene, &context, &ray);

@@ -13,7 +13,7 @@ struct cut_rays;
 /* The cut is copied. Err: ERR_MEMORY */
 bool cut_rays_create(struct cut_rays **rays, const struct static_cut *cut, struct error *err);
 void cut_rays_destroy(struct cut_rays *rays);
-/* Does anything lie that way, more than 1 mm away? */
-bool cut_rays_blocked(const struct cut_rays *rays, struct vec3 from_m, struct vec3 direction);
+/* Does anything lie that way, more than 1 mm and less than reach_m away? */
+bool cut_rays_blocked(const struct cut_rays *rays, struct vec3 from_m, struct vec3 direction, double reach_m);
 
 #endif

@@ -9,7 +9,7 @@ static bool casts(const struct cut_rays *receivers, const float p[3], const stru
 {
     struct vec3 from = vec3((double)p[0], (double)p[1], (double)p[2]);
     for (size_t i = 0; i < n; i++)
-        if (cut_rays_blocked(receivers, from, vec3_scale(towards[i], -1))) return true;
+        if (cut_rays_blocked(receivers, from, vec3_scale(towards[i], -1), INFINITY)) return true;
     return false;
 }
 

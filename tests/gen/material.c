@@ -166,6 +166,10 @@ static void reflectance_is_known(void)
     m.base_image = (struct image){ 2, 1, 3, PIXEL_U8, pixels };
     material_reflectance(rgb, &m, NULL, 0.75, 0.5);
     OK(rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0, "a black texel sends nothing back");
+    m.kind = FINISH_PAINT;
+    material_reflectance(rgb, &m, paint, 0.75, 0.5);
+    OK(rgb[0] == paint[0] && rgb[2] == paint[2], "but where it is painted anew");
+    m.kind = FINISH_PBR;
     m.base_image = (struct image){ 0 };
     m.transmission = 0.8;
     m.roughness = 0;
