@@ -157,8 +157,13 @@ tests_gen_push_pull_test_SOURCES = %D%/gen/push_pull.c %D%/tap.h
 nodist_EXTRA_tests_gen_push_pull_test_SOURCES = dummy.cxx
 tests_gen_push_pull_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/surroundings_light_povray.test
+tests_gen_surroundings_light_povray_test_SOURCES = %D%/gen/surroundings_light_povray.c %D%/gen/ball.h %D%/gen/place.h %D%/gen/povray.h %D%/gen/solid.h %D%/gen/view_above.h %D%/tap.h
+nodist_EXTRA_tests_gen_surroundings_light_povray_test_SOURCES = dummy.cxx
+tests_gen_surroundings_light_povray_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/surroundings_povray.test
-tests_gen_surroundings_povray_test_SOURCES = %D%/gen/surroundings_povray.c %D%/gen/place.h %D%/gen/povray.h %D%/gen/solid.h %D%/gen/view_above.h %D%/tap.h
+tests_gen_surroundings_povray_test_SOURCES = %D%/gen/surroundings_povray.c %D%/gen/ball.h %D%/gen/place.h %D%/gen/povray.h %D%/gen/solid.h %D%/gen/view_above.h %D%/tap.h
 nodist_EXTRA_tests_gen_surroundings_povray_test_SOURCES = dummy.cxx
 tests_gen_surroundings_povray_test_LDADD = $(GEN_LIBS)
 

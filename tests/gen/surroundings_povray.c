@@ -1,156 +1,7 @@
-/* Balls among surroundings taken from a picture, as POV-Ray renders them: what light reaches them, and what they mirror. */
-#include "gen/light/orthophoto.h"
+/* What mirror balls show of surroundings taken from a picture, as POV-Ray renders them. */
 #include "gen/light/sky_image.h"
-#include "gen/render/passes.h"
-#include "gen/render/place_sdl.h"
+#include "tests/gen/ball.h"
 #include "tests/gen/place.h"
-#include "tests/gen/povray.h"
-#include "tests/gen/solid.h"
-#include "tests/gen/view_above.h"
-#include "tests/tap.h"
-
-enum { WIDTH = 160, HEIGHT = 120, ROUND = 64 };
-
-static const struct camera camera = { .model = CAMERA_PINHOLE, .width_px = WIDTH, .height_px = HEIGHT, .params = { 180, 180, 80, 60 } };
-static const struct vec3 eye = { 0, -8, 5 }, middle = { 0, 0, 1 };
-static char out[] = "surroundings.XXXXXX";
-static struct scene scene = {
-    .path = "scene.yaml", .sky = SKY_CLEAR, .sun = SUN_GIVEN, .sun_azimuth_rad = 1, .sun_elevation_rad = 0.8, .turbidity = 3, .sun_scale = 1,
-    .ground = { { 0, 0, 1 }, 0 }, .ground_albedo = { 0.3, 0.3, 0.3 }, .quality = QUALITY_DRAFT,
-};
-
-/* What stands around, when it has a picture. */
-static struct { struct image map; struct vec3 from_m, centre_m; double radius_m; const struct relief *relief;
-                const struct hidden_place *hidden; } circle;
-
-/* Of radius 1, its middle at `middle`. */
-static void ball(struct solid *solid)
-{
-    solid_egg(solid, 2, 2, 2, ROUND);
-    for (size_t i = 0; i < solid->mesh.vertices; i++)
-        for (int k = 0; k < 3; k++) solid->mesh.normal[i][k] = solid->mesh.position_m[i][k] - (k == 2);
-}
-
-/* Is a pixel's centre on one side of all edges of a convex outline? */
-static bool inside(const struct occluder *o, int x, int y)
-{
-    int left = 0, right = 0;
-    for (size_t i = 0; i < o->polygon_count; i++) {
-        struct vec2 a = o->polygon_px[i], b = o->polygon_px[(i + 1) % o->polygon_count];
-        *((b.x - a.x) * (y + 0.5 - a.y) < (b.y - a.y) * (x + 0.5 - a.x) ? &left : &right) += 1;
-    }
-    return !left || !right;
-}
-
-/* Where nothing stands before the ground. */
-static bool hide(struct image *unhidden, const struct occluder *occluder)
-{
-    struct error err = ERROR_NONE;
-    if (!image_init(unhidden, WIDTH, HEIGHT, 1, PIXEL_U8, &err)) return false;
-    for (int y = 0; y < HEIGHT; y++)
-        for (int x = 0; x < WIDTH; x++) *image_u8(unhidden, x, y) = inside(occluder, x, y) ? 0 : 255;
-    return true;
-}
-
-/* The object pass of a ball, over the ground that the picture shows or, without one, the scene's; beside what stands there. */
-static bool render(struct image *pass, const struct light *light, const struct entity *entity, struct image *picture,
-                   const struct occluder *occluder)
-{
-    struct error err = ERROR_NONE;
-    char sky_map[SKY_MAP_SIZE], *folder = string_format("%s/frames", out), *path = string_format("%s/object.exr", folder);
-    char *fine = string_format("%s/fine.png", folder), *coarse = string_format("%s/coarse.png", folder);
-    char *standing = string_format("%s/standing.exr", folder);
-    const struct model_include include = model_include(0, entity);
-    const struct shaded_ground nothing = { 0 };
-    struct image unhidden = { 0 };
-    struct pass_standing thing = { .radiance = "frames/standing.exr" };
-    struct pass_surroundings around = { .orthophoto = "frames/fine.png", .orthophoto_coarse = "frames/coarse.png", .standing = &thing };
-    struct passes p = { .scene = &scene, .sky_map = sky_map, .light = light, .world_from_camera = looking(eye, middle), .entities = entity,
-                        .includes = &include, .entity_count = 1, .ground = scene.ground, .receivers = &nothing };
-    bool ok = folder_make(folder, &err) && sky_map_write(sky_map, out, light, &err) &&
-              view_cover(&p.view, &camera, (struct rect){ 0, 0, WIDTH, HEIGHT }, 1, &err) && model_include_write(&include, NULL, out, entity, &err);
-    if (ok && picture) {
-        struct orthophoto ground;
-        struct seen seen = { .picture = picture, .camera = &camera, .world_from_camera = p.world_from_camera, .k = { 1, 1, 1 } };
-        seen_init(&seen);
-        if (occluder) {
-            ok = hide(&unhidden, occluder);
-            seen.unhidden = &unhidden;
-        }
-        struct orthophoto_input in = { .seen = &seen, .light = light, .ground = &scene.ground, .entities = entity, .n = 1, .ground_albedo = { 0.3, 0.3, 0.3 } };
-        ok = ok && orthophoto_create(&ground, &in, &err) && image_write(fine, &ground.mirrored, &err) && image_write(coarse, &ground.bouncing, &err);
-        struct pass_standing *s = &around.standing[0];
-        if (ok && occluder) ok = standing_create(&s->thing, &seen, occluder, NULL, &err) && s->thing.count && image_write(standing, &s->thing.radiance, &err);
-        around.standing_count = occluder != NULL;
-        around.low_m = ground.low_m;
-        around.high_m = ground.high_m;
-        memcpy(around.ground_albedo, ground.elsewhere, sizeof around.ground_albedo);
-        if (circle.map.data) {
-            char *map = string_format("%s/panorama.exr", folder);
-            ok = ok && image_write(map, &circle.map, &err);
-            free(map);
-            strcpy(around.sky_map, "frames/panorama.exr");
-            around.seen_from_m = circle.from_m;
-            around.circle_m = circle.centre_m;
-            around.circle_radius_m = circle.radius_m;
-            if (circle.relief) {
-                char *relief = string_format("%s/relief.inc", folder), *hidden = string_format("%s/hidden.exr", folder);
-                ok = ok && (!circle.hidden || image_write(hidden, &circle.hidden->radiance, &err)) &&
-                     relief_include_write(relief, circle.relief, circle.hidden, "frames/hidden.exr", &err);
-                free(relief);
-                free(hidden);
-                strcpy(around.relief_include, "frames/relief.inc");
-                strcpy(around.relief_map, around.sky_map);
-            }
-        }
-        p.surroundings = &around;
-        orthophoto_release(&ground);
-    }
-    ok = ok && passes_write(folder, &p, &err) && povray(out, "object", WIDTH, HEIGHT, "-A -J") && image_read(pass, path, &err);
-    if (!ok) printf("# %s %s; %s/povray.log\n", err.file, err.text, out);
-    free(folder);
-    free(path);
-    free(fine);
-    free(coarse);
-    free(standing);
-    standing_release(&thing.thing);
-    image_release(&unhidden);
-    return ok;
-}
-
-/* The mean over the part of a ball that looks down: below its middle in the picture. */
-static void underside(double rgb[3], const struct image *pass)
-{
-    double n = 0;
-    rgb[0] = rgb[1] = rgb[2] = 0;
-    for (int y = 70; y < HEIGHT; y++)
-        for (int x = 0; x < WIDTH; x++) {
-            const float *p = image_f32(pass, x, y);
-            if (p[3] < 1) continue;
-            for (int c = 0; c < 3; c++) rgb[c] += (double)p[c];
-            n++;
-        }
-    for (int c = 0; c < 3; c++) rgb[c] /= n;
-}
-
-static void test_bounce(const struct light *light, struct entity *entity, struct image *picture)
-{
-    struct image pass[3] = { { 0 } };
-    double bare[3], shown[3], red[3];
-    const double *e = light->irradiance;
-    if (!OK(render(&pass[0], light, entity, NULL, NULL), "a white ball over bare ground")) return;
-    fill_px(picture, 0, 0, WIDTH, HEIGHT, 0.3 * e[0], 0.3 * e[1], 0.3 * e[2]);
-    if (!OK(render(&pass[1], light, entity, picture, NULL), "over a picture of the same ground")) return;
-    fill_px(picture, 0, 0, WIDTH, HEIGHT, 0.3 * e[0], 0.05 * e[1], 0.05 * e[2]);
-    if (!OK(render(&pass[2], light, entity, picture, NULL), "over a picture of red ground")) return;
-    underside(bare, &pass[0]);
-    underside(shown, &pass[1]);
-    underside(red, &pass[2]);
-    for (int c = 0; c < 3; c++) NEAR(shown[c] / bare[c], 1, 0.02, "a picture of even ground sends as much light up as the ground itself, channel %d", c);
-    NEAR(red[0] / shown[0], 1, 0.02, "red ground sends up the red");
-    OK(red[1] < 0.8 * shown[1] && red[2] < 0.8 * shown[2], "and little else (%.3f, %.3f)", red[1] / shown[1], red[2] / shown[2]);
-    for (int i = 0; i < 3; i++) image_release(&pass[i]);
-}
 
 /* Where in the picture a mirror ball shows a point: light takes the shortest way by its surface (Fermat). */
 static struct vec2 mirrored_at(struct vec3 point)
@@ -296,50 +147,6 @@ static void test_relief(const struct light *light, struct entity *entity, struct
     place_free(&place);
 }
 
-/* A long wall shines, and nothing else: the ball is lit from where it stands itself, nearer to it than who looked round. */
-static void test_relief_light(const struct light *light, struct entity *entity, struct image *picture)
-{
-    const double wall_y = -10, height = 7, shines = 2;
-    const struct vec3 front = vec3(0, -1, 1);
-    struct error err = ERROR_NONE;
-    struct light sunless = *light;
-    struct place place = { 0 };
-    struct static_mesh *mesh = NULL;
-    struct relief relief = { 0 };
-    struct relief_input in = { .from_m = { 0, 6, 1 } };
-    struct image pass = { 0 };
-    struct vec2 q;
-    place_wall(&place, -300, 300, wall_y, 0, height, 0);
-    bool ok = place_mesh(&mesh, &place, false, &err) && image_init(&circle.map, 1024, 512, 3, PIXEL_F32, &err);
-    in.place = mesh;
-    if (!OK(ok && relief_create(&relief, &in, &err), "a relief of a long wall")) return;
-    for (int y = 0; y < 512; y++)
-        for (int x = 0; x < 1024; x++) {
-            struct vec3 d = sky_direction(&circle.map, x, y);
-            double z = in.from_m.z + (wall_y - in.from_m.y) / d.y * d.z;
-            for (int c = 0; c < 3; c++) image_f32(&circle.map, x, y)[c] = d.y < 0 && z > 0 && z < height ? (float)shines : 0;
-        }
-    circle.from_m = in.from_m;
-    circle.relief = &relief;
-    sunless.has_sun = false;
-    scene.quality = QUALITY_STANDARD;
-    fill_px(picture, 0, 0, WIDTH, HEIGHT, 0, 0, 0);
-    if (OK(camera_project(&camera, &q, pose_apply(pose_inverse(looking(eye, middle)), front), &err) && render(&pass, &sunless, entity, picture, NULL),
-           "a white ball before it")) {
-        double got = 0, far = front.y - wall_y, wanted = (sin(atan((height - 1) / far)) + sin(atan(1 / far))) / 2 * shines;
-        for (int i = 0; i < 25; i++) got += (double)image_f32(&pass, (int)q.x + i % 5 - 2, (int)q.y + i / 5 - 2)[1] / 25;
-        /* The relief may end a step of 0.4 m below the top; as seen from there it would be 0.62 of it. */
-        NEAR(got, wanted, 0.1 * wanted, "is as bright as the wall is large, seen from the ball");
-    }
-    scene.quality = QUALITY_DRAFT;
-    circle.relief = NULL;
-    image_release(&pass);
-    image_release(&circle.map);
-    relief_release(&relief);
-    static_mesh_destroy(mesh);
-    place_free(&place);
-}
-
 /* Red from (-1, 1) to (2, 4), across and up. */
 static void paint_red(uint8_t srgb[3], const float p[3])
 {
@@ -394,17 +201,13 @@ int main(void)
     struct error err = ERROR_NONE;
     struct light light;
     struct image picture;
-    struct solid white, mirror;
-    ball(&white);
+    struct solid mirror;
     ball(&mirror);
     mirror.material.metallic = 1;
     mirror.material.roughness = 0;
-    struct entity entity = { .id = 1, .name = "ball", .model_name = "ball", .class_ = CLASS_OTHER, .model = &white.model, .world_from_entity = pose_identity() };
+    struct entity entity = { .id = 1, .name = "ball", .model_name = "ball", .class_ = CLASS_OTHER, .model = &mirror.model, .world_from_entity = pose_identity() };
     if (!OK(mkdtemp(out) != NULL && light_create(&light, &scene, &err) && image_init(&picture, WIDTH, HEIGHT, 3, PIXEL_U8, &err), "light and a picture"))
         return tap_done();
-    test_bounce(&light, &entity, &picture);
-    test_relief_light(&light, &entity, &picture);
-    entity.model = &mirror.model;
     test_mirror(&light, &entity, &picture, vec3(1.2, -1.9, 0));
     test_mirror(&light, &entity, &picture, vec3(-2, -1.4, 0));
     test_upright(&light, &entity, &picture);
@@ -414,7 +217,6 @@ int main(void)
     test_hidden(&light, &entity, &picture);
     image_release(&picture);
     light_release(&light);
-    solid_free(&white);
     solid_free(&mirror);
     povray_remove(out);
     return tap_done();
