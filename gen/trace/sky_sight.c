@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROUGH_M 0.5
+enum { UPWARD = 2 }; /* so many for each of the sky's rays */
+#define ROUGH_M 0.5 /* so far the near place is taken for rough ground */
 #define LOOK_M 0.5 /* so high above its foot what stands round an entity is looked for */
 
 /* An entity in the sky's way. */
@@ -23,16 +24,19 @@ struct blocker {
     double radius_m;
     struct vec3 *direction; /* (rays) in entity coordinates */
     double (*color)[3];     /* (rays) what comes along them to its receiver */
+    struct vec3 *upward;    /* (upward) in entity coordinates */
     double share;           /* room for one point's: receiver_share */
 };
 
 struct sky_sight {
     struct sky_rays rays;
+    struct vec3 *upward; /* (upward_count) by their cosine with up: what entities send may come from where the sky has little light */
+    size_t upward_count;
     struct sky_round round;
     const struct light *light;
     const struct sun_share *sun_share;
     bool *walled;               /* (rays) room for one point's: does the near place end them, farther than ROUGH_M, */
-    float *open, *share, *past; /* do they bring light, what of it comes past entities, and past one of them, */
+    float *share, *past;        /* what of their light comes past entities, and past one of them, */
     double (*color)[3];         /* and the light */
     struct cut_rays *near; /* of the place; or NULL */
     struct blocker *blockers;
@@ -43,7 +47,7 @@ bool sky_sight_create(struct sky_sight **sight, const struct sky_sight_input *in
 {
     size_t n = in->directions;
     struct sky_sight *s = calloc(1, sizeof *s);
-    bool ok = s && (s->walled = calloc(n + 1, sizeof *s->walled)) && (s->open = calloc(n + 1, sizeof *s->open)) && (s->share = calloc(n + 1, sizeof *s->share)) &&
+    bool ok = s && (s->upward = calloc(UPWARD * n + 1, sizeof *s->upward)) && (s->walled = calloc(n + 1, sizeof *s->walled)) && (s->share = calloc(n + 1, sizeof *s->share)) &&
               (s->past = calloc(n + 1, sizeof *s->past)) && (s->color = calloc(n + 1, sizeof *s->color));
     if (!ok) error_set(err, ERR_MEMORY, "no memory for the sky's directions");
     ok = ok && sky_rays_init(&s->rays, in->light, n, err) &&
@@ -51,6 +55,11 @@ bool sky_sight_create(struct sky_sight **sight, const struct sky_sight_input *in
     if (!ok) {
         sky_sight_destroy(s);
         return false;
+    }
+    s->upward_count = UPWARD * n;
+    for (size_t i = 0; i < s->upward_count; i++) {
+        double r = sqrt(((double)i + 0.5) / (double)s->upward_count), turn = 2 * M_PI * fmod(((double)i + 0.5) * 0.61803398874989485, 1);
+        s->upward[i] = vec3(r * cos(turn), r * sin(turn), sqrt(1 - r * r));
     }
     s->round = in->round;
     s->light = in->light;
@@ -65,6 +74,7 @@ static void blocker_release(struct blocker *b)
     shape_destroy(b->own);
     free(b->direction);
     free(b->color);
+    free(b->upward);
 }
 
 static void enclose(struct blocker *b)
@@ -86,8 +96,9 @@ bool sky_sight_add(struct sky_sight *s, const struct tracer *tracer, const struc
     if (!grown) return error_set(err, ERR_MEMORY, "no memory for what is in the sky's way");
     s->blockers = grown;
     struct blocker b = { .receiver = receiver, .entity_from_world = pose_inverse(entity->world_from_entity),
-                         .direction = calloc(n + 1, sizeof *b.direction), .color = calloc(n + 1, sizeof *b.color) };
-    bool ok = (b.direction && b.color) || error_set(err, ERR_MEMORY, "no memory for what is in the sky's way");
+                         .direction = calloc(n + 1, sizeof *b.direction), .color = calloc(n + 1, sizeof *b.color),
+                         .upward = calloc(s->upward_count + 1, sizeof *b.upward) };
+    bool ok = (b.direction && b.color && b.upward) || error_set(err, ERR_MEMORY, "no memory for what is in the sky's way");
     ok = ok && tracer_shape(&b.shape, &b.own, tracer, entity->model, err) &&
          (!s->round.radiance || exitance_create(&b.exitance, entity, &(struct entity_light){ s->light, s->round.radiance, s }, err));
     if (!ok) {
@@ -96,6 +107,7 @@ bool sky_sight_add(struct sky_sight *s, const struct tracer *tracer, const struc
     }
     enclose(&b);
     for (size_t i = 0; i < n; i++) b.direction[i] = mat3_apply(b.entity_from_world.rotation, s->rays.direction[i]);
+    for (size_t i = 0; i < s->upward_count; i++) b.upward[i] = mat3_apply(b.entity_from_world.rotation, s->upward[i]);
     sky_rays_round(b.color, &s->rays, &s->round, receiver, vec3_add(entity->world_from_entity.translation, vec3(0, 0, LOOK_M)));
     s->blockers[s->blocker_count++] = b;
     return true;
@@ -108,8 +120,8 @@ void sky_sight_destroy(struct sky_sight *s)
     free(s->blockers);
     cut_rays_destroy(s->near);
     sky_rays_release(&s->rays);
+    free(s->upward);
     free(s->walled);
-    free(s->open);
     free(s->share);
     free(s->past);
     free(s->color);
@@ -174,7 +186,7 @@ static void meet_near(const struct sky_sight *s, struct vec3 p, struct vec3 norm
         bool up = vec3_dot(d, normal) > 0;
         bool ended = up && s->near && cut_rays_blocked(s->near, p, d, INFINITY);
         s->walled[i] = ended && s->round.radiance && !cut_rays_blocked(s->near, p, d, ROUGH_M);
-        s->share[i] = s->open[i] = up && (!ended || s->walled[i]);
+        s->share[i] = up && (!ended || s->walled[i]);
         if (s->walled[i]) sky_ray_color(s->color[i], &s->rays, i, s->round.radiance);
     }
 }
@@ -196,11 +208,11 @@ static void mix_colors(const struct sky_sight *s, struct vec3 p)
     }
 }
 
-static void gather(double rgb[3], const struct sky_sight *s, const float *share, struct vec3 normal)
+static void gather(double rgb[3], const struct sky_sight *s, struct vec3 normal)
 {
     rgb[0] = rgb[1] = rgb[2] = 0;
     for (size_t i = 0; i < s->rays.n; i++) {
-        double weight = (double)share[i] * fmax(0, vec3_dot(s->rays.direction[i], normal));
+        double weight = (double)s->share[i] * fmax(0, vec3_dot(s->rays.direction[i], normal));
         for (int c = 0; c < 3; c++) rgb[c] += weight * s->color[i][c];
     }
 }
@@ -215,7 +227,7 @@ static double left_of(const struct sky_sight *s, const double sky[3], struct vec
     return luminance_of(all) / luminance_of(light->irradiance);
 }
 
-/* Where a ray first meets an entity; NULL: nowhere */
+/* The entity that an upward ray meets first, before the place does; NULL: none */
 static const struct blocker *meet(struct shape_point *first, const struct sky_sight *s, struct vec3 p, size_t ray)
 {
     const struct blocker *nearest = NULL;
@@ -223,23 +235,26 @@ static const struct blocker *meet(struct shape_point *first, const struct sky_si
     first->range_m = INFINITY;
     for (size_t k = 0; k < s->blocker_count; k++) {
         const struct blocker *b = &s->blockers[k];
-        if (!(b->share > 0) || !shape_meet(b->shape, &point, pose_apply(b->entity_from_world, p), b->direction[ray]) ||
+        if (!(b->share > 0) || !shape_meet(b->shape, &point, pose_apply(b->entity_from_world, p), b->upward[ray]) ||
             point.range_m > first->range_m) continue;
         nearest = b;
         *first = point;
     }
-    return nearest;
+    return nearest && s->near && cut_rays_blocked(s->near, p, s->upward[ray], first->range_m) ? NULL : nearest;
 }
 
 static void add_sent_back(double rgb[3], const struct sky_sight *s, struct vec3 p, struct vec3 normal)
 {
     double left = left_of(s, rgb, p, normal), radiance[3];
-    for (size_t i = 0; i < s->rays.n; i++) {
+    for (size_t i = 0; i < s->upward_count; i++) {
         struct shape_point point;
-        double weight = (double)(s->open[i] - s->share[i]) * s->rays.solid_angle[i] * vec3_dot(s->rays.direction[i], normal);
-        const struct blocker *b = weight > 0 ? meet(&point, s, p, i) : NULL;
+        double cosine = vec3_dot(s->upward[i], normal);
+        const struct blocker *b = cosine > 0 ? meet(&point, s, p, i) : NULL;
         if (!b) continue;
-        exitance_radiance(radiance, b->exitance, &point, b->direction[i], left);
+        float past = 1;
+        shape_shade(b->shape, &past, pose_apply(b->entity_from_world, p), &b->upward[i], 1);
+        double weight = b->share * (1 - (double)past) * cosine / s->upward[i].z / (double)s->upward_count;
+        exitance_radiance(radiance, b->exitance, &point, b->upward[i], left);
         for (int c = 0; c < 3; c++) rgb[c] += weight * radiance[c];
     }
 }
@@ -260,7 +275,7 @@ struct sky_seen sky_sight_at(const struct sky_sight *s, struct vec3 p, struct ve
     struct sky_seen seen;
     mix_colors(s, p);
     meet_near(s, p, normal);
-    gather(seen.without, s, s->open, normal);
+    gather(seen.without, s, normal);
     for (size_t k = 0; k < s->blocker_count; k++) {
         const struct blocker *b = &s->blockers[k];
         if (!(b->share > 0)) continue;
@@ -269,7 +284,7 @@ struct sky_seen sky_sight_at(const struct sky_sight *s, struct vec3 p, struct ve
         spare_walled(s, b, p);
         for (size_t i = 0; i < s->rays.n; i++) s->share[i] *= 1 - (float)b->share * (1 - s->past[i]);
     }
-    gather(seen.with, s, s->share, normal);
+    gather(seen.with, s, normal);
     if (s->round.radiance) add_sent_back(seen.with, s, p, normal);
     return seen;
 }
