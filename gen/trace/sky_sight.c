@@ -47,8 +47,9 @@ bool sky_sight_create(struct sky_sight **sight, const struct sky_sight_input *in
 {
     size_t n = in->directions;
     struct sky_sight *s = calloc(1, sizeof *s);
-    bool ok = s && (s->upward = calloc(UPWARD * n + 1, sizeof *s->upward)) && (s->walled = calloc(n + 1, sizeof *s->walled)) && (s->share = calloc(n + 1, sizeof *s->share)) &&
-              (s->past = calloc(n + 1, sizeof *s->past)) && (s->color = calloc(n + 1, sizeof *s->color));
+    bool ok = s && (s->upward = calloc(UPWARD * n + 1, sizeof *s->upward)) && (s->walled = calloc(n + 1, sizeof *s->walled)) &&
+              (s->share = calloc(n + 1, sizeof *s->share)) && (s->past = calloc(n + 1, sizeof *s->past)) &&
+              (s->color = calloc(n + 1, sizeof *s->color));
     if (!ok) error_set(err, ERR_MEMORY, "no memory for the sky's directions");
     ok = ok && sky_rays_init(&s->rays, in->light, n, err) &&
          (!in->near || !in->near->triangles || cut_rays_create(&s->near, in->near, err));
@@ -236,7 +237,8 @@ static const struct blocker *meet(struct shape_point *first, const struct sky_si
     for (size_t k = 0; k < s->blocker_count; k++) {
         const struct blocker *b = &s->blockers[k];
         if (!(b->share > 0) || !shape_meet(b->shape, &point, pose_apply(b->entity_from_world, p), b->upward[ray]) ||
-            point.range_m > first->range_m) continue;
+            point.range_m > first->range_m)
+            continue;
         nearest = b;
         *first = point;
     }
