@@ -141,6 +141,7 @@ until [ "$(files killed exr)" -ge 2 ] || ! kill -0 $pid 2>/dev/null; do sleep 0.
 kill -KILL $pid
 wait $pid 2>/dev/null
 made=$(files killed exr)
+echo "# $made of 27 pictures; $(tail -n 1 log | tr '\r' ' ')"
 check "killed: it was in the middle" test "$made" -ge 2 -a "$made" -lt 27
 run "$staffage" run many.yaml -o killed -j 2
 check "killed: nothing goes on in its back" test "$(files killed exr)" = 27 -a $status = 0
