@@ -56,9 +56,8 @@ static void round_normal(struct vec3 direction[RAYS], struct vec3 normal)
 {
     struct vec3 aside = vec3_unit(vec3_cross(normal, fabs(normal.z) < 0.9 ? vec3(0, 0, 1) : vec3(1, 0, 0))), up = vec3_cross(aside, normal);
     for (int i = 0; i < RAYS; i++) {
-        double r = sqrt((i + 0.5) / RAYS), turn = 2 * M_PI * fmod((i + 0.5) * 0.61803398874989485, 1);
-        direction[i] = vec3_add(vec3_scale(normal, sqrt(1 - r * r)),
-                                vec3_add(vec3_scale(aside, r * cos(turn)), vec3_scale(up, r * sin(turn))));
+        struct vec3 d = cosine_direction((size_t)i, RAYS);
+        direction[i] = vec3_add(vec3_scale(normal, d.z), vec3_add(vec3_scale(aside, d.x), vec3_scale(up, d.y)));
     }
 }
 

@@ -32,6 +32,12 @@ void sky_rays_release(struct sky_rays *rays)
     *rays = (struct sky_rays){ 0 };
 }
 
+struct vec3 cosine_direction(size_t i, size_t n)
+{
+    double r = sqrt(((double)i + 0.5) / (double)n), turn = 2 * M_PI * fmod(((double)i + 0.5) * 0.61803398874989485, 1);
+    return vec3(r * cos(turn), r * sin(turn), sqrt(1 - r * r));
+}
+
 void sky_ray_color(double color[3], const struct sky_rays *rays, size_t ray, const struct image *radiance)
 {
     const float *rgb = sky_radiance(radiance, rays->direction[ray]);

@@ -23,6 +23,9 @@ struct sky_rays {
 bool sky_rays_init(struct sky_rays *rays, const struct light *light, size_t n, struct error *err);
 void sky_rays_release(struct sky_rays *rays);
 
+/* The i-th of n directions round +z that share a matte surface's irradiance equally: by the cosine, turned by the golden ratio. */
+struct vec3 cosine_direction(size_t i, size_t n);
+
 /* What comes along a ray from an image of radiances, laid out as sky_image.h says. */
 void sky_ray_color(double color[3], const struct sky_rays *rays, size_t ray, const struct image *radiance);
 

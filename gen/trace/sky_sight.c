@@ -25,7 +25,8 @@ struct blocker {
     struct vec3 *direction; /* (rays) in entity coordinates */
     double (*color)[3];     /* (rays) what comes along them to its receiver */
     struct vec3 *upward;    /* (upward) in entity coordinates */
-    double share;           /* room for one point's: receiver_share */
+    double share;           /* room for one point: its receiver_share, */
+    struct vec3 from_m;     /* and the point in entity coordinates */
 };
 
 struct sky_sight {
@@ -58,10 +59,7 @@ bool sky_sight_create(struct sky_sight **sight, const struct sky_sight_input *in
         return false;
     }
     s->upward_count = UPWARD * n;
-    for (size_t i = 0; i < s->upward_count; i++) {
-        double r = sqrt(((double)i + 0.5) / (double)s->upward_count), turn = 2 * M_PI * fmod(((double)i + 0.5) * 0.61803398874989485, 1);
-        s->upward[i] = vec3(r * cos(turn), r * sin(turn), sqrt(1 - r * r));
-    }
+    for (size_t i = 0; i < s->upward_count; i++) s->upward[i] = cosine_direction(i, s->upward_count);
     s->round = in->round;
     s->light = in->light;
     s->sun_share = in->sun_share;
@@ -196,7 +194,11 @@ static void meet_near(const struct sky_sight *s, struct vec3 p, struct vec3 norm
 static void mix_colors(const struct sky_sight *s, struct vec3 p)
 {
     double all = 0;
-    for (size_t k = 0; k < s->blocker_count; k++) all += s->blockers[k].share = receiver_share(s->blockers[k].receiver, p);
+    for (size_t k = 0; k < s->blocker_count; k++) {
+        struct blocker *b = &s->blockers[k];
+        b->from_m = pose_apply(b->entity_from_world, p);
+        all += b->share = receiver_share(b->receiver, p);
+    }
     if (!(all > 0)) {
         memcpy(s->color, s->rays.color, s->rays.n * sizeof *s->color);
         return;
@@ -236,7 +238,7 @@ static const struct blocker *meet(struct shape_point *first, const struct sky_si
     first->range_m = INFINITY;
     for (size_t k = 0; k < s->blocker_count; k++) {
         const struct blocker *b = &s->blockers[k];
-        if (!(b->share > 0) || !shape_meet(b->shape, &point, pose_apply(b->entity_from_world, p), b->upward[ray]) ||
+        if (!(b->share > 0) || !shape_meet(b->shape, &point, b->from_m, b->upward[ray]) ||
             point.range_m > first->range_m)
             continue;
         nearest = b;
@@ -254,7 +256,7 @@ static void add_sent_back(double rgb[3], const struct sky_sight *s, struct vec3 
         const struct blocker *b = cosine > 0 ? meet(&point, s, p, i) : NULL;
         if (!b) continue;
         float past = 1;
-        shape_shade(b->shape, &past, pose_apply(b->entity_from_world, p), &b->upward[i], 1);
+        shape_shade(b->shape, &past, b->from_m, &b->upward[i], 1);
         double weight = b->share * (1 - (double)past) * cosine / s->upward[i].z / (double)s->upward_count;
         exitance_radiance(radiance, b->exitance, &point, b->upward[i], left);
         for (int c = 0; c < 3; c++) rgb[c] += weight * radiance[c];
@@ -264,10 +266,9 @@ static void add_sent_back(double rgb[3], const struct sky_sight *s, struct vec3 
 /* An entity takes nothing from rays that the place ends before it. */
 static void spare_walled(const struct sky_sight *s, const struct blocker *b, struct vec3 p)
 {
-    struct vec3 from = pose_apply(b->entity_from_world, p);
     struct shape_point point;
     for (size_t i = 0; i < s->rays.n; i++)
-        if (s->walled[i] && s->past[i] < 1 && shape_meet(b->shape, &point, from, b->direction[i]) &&
+        if (s->walled[i] && s->past[i] < 1 && shape_meet(b->shape, &point, b->from_m, b->direction[i]) &&
             cut_rays_blocked(s->near, p, s->rays.direction[i], point.range_m))
             s->past[i] = 1;
 }
@@ -282,7 +283,7 @@ struct sky_seen sky_sight_at(const struct sky_sight *s, struct vec3 p, struct ve
         const struct blocker *b = &s->blockers[k];
         if (!(b->share > 0)) continue;
         for (size_t i = 0; i < s->rays.n; i++) s->past[i] = s->share[i] > 0;
-        shape_shade(b->shape, s->past, pose_apply(b->entity_from_world, p), b->direction, s->rays.n);
+        shape_shade(b->shape, s->past, b->from_m, b->direction, s->rays.n);
         spare_walled(s, b, p);
         for (size_t i = 0; i < s->rays.n; i++) s->share[i] *= 1 - (float)b->share * (1 - s->past[i]);
     }
