@@ -13,6 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+void frame_name(char name[FRAME_NAME_SIZE], const struct scene_shot *shot)
+{
+    snprintf(name, FRAME_NAME_SIZE, "%06d", shot->number);
+}
+
 static void frame_release(struct frame *f)
 {
     for (size_t i = 0; f->receivers && i < f->moment.n; i++) receiver_release(&f->receivers[i]);

@@ -34,6 +34,9 @@ struct frame_result {
     bool kept;                  /* it was there already, from the same input */
 };
 
+/* The number of its shot, six digits. */
+void frame_name(char name[FRAME_NAME_SIZE], const struct scene_shot *shot);
+
 /* Write a frame's folder.
  * In:  result->name; photograph as the manifest is to name it ("" for a new view); camera at the
  *      photograph's size; key: hash of all that the frame depends on

@@ -4,11 +4,11 @@
 #include "gen/light/map_sun.h"
 #include "gen/light/skyline.h"
 #include "gen/render/passes.h"
+#include "gen/run_json.h"
 #include "lib/file.h"
 #include "lib/image.h"
 #include "lib/manifest.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -177,7 +177,7 @@ size_t generator_frame_count(const struct generator *g)
 
 void generator_frame_name(char name[FRAME_NAME_SIZE], const struct generator *g, size_t frame)
 {
-    snprintf(name, FRAME_NAME_SIZE, "%06d", g->scene->shots[frame].number);
+    frame_name(name, &g->scene->shots[frame]);
 }
 
 size_t generator_warning_count(const struct generator *g)
@@ -190,10 +190,9 @@ const char *generator_warning(const struct generator *g, size_t i)
     return g->stage->warnings[i];
 }
 
-/* Of level ground in the sun. */
-static void ground_radiance(double rgb[3], const struct generator *g)
+static struct run_facts run_facts(const struct generator *g)
 {
-    for (int c = 0; c < 3; c++) rgb[c] = g->scene->ground_albedo[c] * g->light.irradiance[c];
+    return (struct run_facts){ g->scene, &g->light, g->estimated ? &g->estimate : NULL, g->input_hash };
 }
 
 /* The height tells whether foot and tip are those of one shadow. */
@@ -214,8 +213,9 @@ static char *given_text(const struct generator *g)
 
 char *generator_light_text(const struct generator *g)
 {
+    struct run_facts facts = run_facts(g);
     double radiance[3];
-    ground_radiance(radiance, g);
+    run_ground_radiance(radiance, &facts);
     char *north = north_text(g->scene), *light = g->estimated ? light_estimate_text(&g->estimate, radiance) : string_format("%s", "");
     char *given = given_text(g), *text = north && light && given ? string_format("%s%s%s", north, light, given) : NULL;
     free(north);
@@ -356,63 +356,12 @@ out:
     return ok;
 }
 
-/* The frames of this run and, of those that run.json names already, what the scene still has and the same input made. */
-static json_t *list_frames(const struct generator *g, const struct frame_result *frames, size_t n, const json_t *before,
-                           const char *input, size_t *others)
-{
-    const char *input_before = json_string_value(json_object_get(before, "input_hash"));
-    const json_t *names_before = json_object_get(before, "frames");
-    bool same = input_before && !strcmp(input_before, input);
-    json_t *names = json_array();
-    *others = json_array_size(names_before);
-    for (size_t k = 0; k < g->scene->shot_count; k++) {
-        char name[FRAME_NAME_SIZE];
-        bool made = false, was = false;
-        generator_frame_name(name, g, k);
-        for (size_t i = 0; i < n; i++) made = made || !strcmp(frames[i].name, name);
-        for (size_t i = 0; i < json_array_size(names_before); i++) {
-            const char *other = json_string_value(json_array_get(names_before, i));
-            was = was || (other && !strcmp(other, name));
-        }
-        if (made || (was && same)) json_array_append_new(names, json_string(name));
-        if (was && (made || same)) --*others;
-    }
-    return names;
-}
-
 bool generator_write_run(const struct generator *g, const struct frame_result *frames, size_t n,
                          size_t *others, struct error *err)
 {
-    static const char *const qualities[] = { "draft", "standard", "high" };
-    const struct scene *s = g->scene;
-    char hash[17], input[17], *path = string_format("%s/run.json", g->out_folder);
-    snprintf(hash, sizeof hash, "%016llx", (unsigned long long)s->hash);
-    snprintf(input, sizeof input, "%016llx", (unsigned long long)g->input_hash);
-    json_t *before = path ? json_load_file(path, 0, NULL) : NULL, *names = list_frames(g, frames, n, before, input, others);
-    json_decref(before);
-    json_t *run = json_pack("{s:s, s:s, s:s, s:s, s:s, s:i, s:[fff], s:o}", "version", PACKAGE_VERSION, "scene", s->path,
-                            "scene_hash", hash, "input_hash", input, "quality", qualities[s->quality], "seed", s->seed,
-                            "ground_irradiance_over_pi", g->light.irradiance[0], g->light.irradiance[1],
-                            g->light.irradiance[2], "frames", names);
-    if (run && g->light.has_sun) {
-        struct vec3 d = g->light.sun_direction;
-        json_object_set_new(run, "sun_direction", json_pack("[fff]", d.x, d.y, d.z));
-        json_object_set_new(run, "sun_elevation_deg", json_real(asin(d.z) * DEG));
-        json_object_set_new(run, "sun_azimuth_deg", json_real(fmod((atan2(d.x, d.y) + s->north_rad) * DEG + 720, 360)));
-    }
-    if (run && s->north_shadow_m > 0)
-        json_object_set_new(run, "north", json_pack("{s:f, s:f, s:f}", "north_deg", fmod(s->north_rad * DEG + 720, 360), "shadow_m",
-                                                    s->north_shadow_m, "height_m", s->north_height_m));
-    if (run && g->estimated) {
-        double radiance[3];
-        ground_radiance(radiance, g);
-        json_object_set_new(run, "light", light_estimate_json(&g->estimate, radiance));
-    }
-    char *text = run ? json_dumps(run, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) : NULL;
-    bool ok = path && text ? file_write_if_changed(path, text, strlen(text), err)
-                           : error_set(err, ERR_MEMORY, "no memory for run.json");
-    free(text);
-    json_decref(run);
+    struct run_facts facts = run_facts(g);
+    char *path = string_format("%s/run.json", g->out_folder);
+    bool ok = path ? run_json_write(others, path, &facts, frames, n, err) : error_set(err, ERR_MEMORY, "no memory for a path");
     free(path);
     return ok;
 }

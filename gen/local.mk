@@ -80,6 +80,7 @@ gen_libgen_a_SOURCES = \
   %D%/render/sdl.c %D%/render/sdl.h \
   %D%/render/shade_sdl.c %D%/render/shade_sdl.h \
   %D%/render/sky_uv.c %D%/render/sky_uv.h \
+  %D%/run_json.c %D%/run_json.h \
   %D%/scene/nearest.c %D%/scene/nearest.h \
   %D%/scene/scene.c %D%/scene/scene.h \
   %D%/scene/scene_cast.c \
