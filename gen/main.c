@@ -83,90 +83,112 @@ static bool ask_for_light(struct scene *scene, struct error *err)
     return true;
 }
 
-static bool generate(const struct options *o, struct error *err)
+/* The frames that the user asked for, and what came of each. */
+struct run {
+    struct generator *generator;
+    size_t *chosen, n;
+    struct frame_result *results;
+    struct makefile_frame *entries;
+    size_t done, kept, made, failed;
+    struct error first;         /* what was wrong with the first that failed */
+};
+
+static void run_release(struct run *r)
 {
-    struct scene *scene = NULL;
-    struct generator *generator = NULL;
-    struct frame_result *results = NULL;
-    struct makefile_frame *entries = NULL;
-    size_t *chosen = NULL, n = 0, kept = 0, made = 0, failed = 0;
-    struct error first = ERROR_NONE;
-    struct catalogue_folders folders = { 0 };
-    char *templates = string_format("%s/templates", data_folder());
-    char *rules = string_format("%s/templates/materials.rules", data_folder());
-    bool ok = false;
-    if (!catalogue_folders_init(&folders, PKGDATADIR, err) || !scene_read(&scene, o->scene, folders.list, err)) goto out;
-    if (o->quality >= 0) scene->quality = (enum quality)o->quality;
-    if (o->has_seed) scene->seed = o->seed;
-    if ((o->light && !ask_for_light(scene, err)) || !generator_create(&generator, scene, o->out, rules, err)) goto out;
-    for (size_t i = 0; i < generator_warning_count(generator); i++)
-        fprintf(stderr, "staffage-gen: warning: %s\n", generator_warning(generator, i));
+    free(r->chosen);
+    free(r->entries);
+    free(r->results);
+}
 
-    char *light = generator_light_text(generator);
-    if (light) fputs(light, stdout);
-    free(light);
-    if (o->light) {
-        ok = true;
-        goto out;
-    }
-
+static bool choose_frames(struct run *r, struct generator *generator, const struct options *o, struct error *err)
+{
     size_t count = generator_frame_count(generator);
-    results = calloc(count + 1, sizeof *results);
-    entries = calloc(count + 1, sizeof *entries);
-    chosen = calloc(count + 1, sizeof *chosen);
-    if (!results || !entries || !chosen) {
-        error_set(err, ERR_MEMORY, "no memory for the frames");
-        goto out;
-    }
+    *r = (struct run){ .generator = generator, .first = ERROR_NONE };
+    r->results = calloc(count + 1, sizeof *r->results);
+    r->entries = calloc(count + 1, sizeof *r->entries);
+    r->chosen = calloc(count + 1, sizeof *r->chosen);
+    if (!r->results || !r->entries || !r->chosen) return error_set(err, ERR_MEMORY, "no memory for the frames");
     for (size_t i = 0; i < count; i++) {
         char name[FRAME_NAME_SIZE];
         generator_frame_name(name, generator, i);
         int number = atoi(name);
-        if (number >= o->first && number < o->end) chosen[n++] = i;
+        if (number >= o->first && number < o->end) r->chosen[r->n++] = i;
     }
-    if (n == 0) {
-        error_set(err, ERR_INPUT, "--frames %d:%d: the scene has no frame in that range", o->first, o->end);
-        goto out;
-    }
-    if (!generator_prepare(generator, chosen, n, err)) goto out;
-    struct pass_settings settings = generator_pass_settings(generator);
-    size_t done = 0;
-    for (size_t i = 0; i < n; i++) {
-        struct frame_result *result = &results[done];
+    return r->n || error_set(err, ERR_INPUT, "--frames %d:%d: the scene has no frame in that range", o->first, o->end);
+}
+
+static struct makefile_frame makefile_entry(const struct frame_result *result, const struct pass_settings *settings)
+{
+    if (result->empty) return (struct makefile_frame){ .name = result->name, .empty = true };
+    int width = result->view.width_px, height = result->view.height_px;
+    return (struct makefile_frame){
+        .name = result->name,
+        .width_px = { width, width, width },
+        .height_px = { height, height, height },
+        .options = { settings->object_antialias, settings->receiver_antialias, settings->receiver_antialias },
+    };
+}
+
+/* One bad photograph is no reason to leave the others. */
+static void generate_each(struct run *r)
+{
+    struct pass_settings settings = generator_pass_settings(r->generator);
+    for (size_t i = 0; i < r->n; i++) {
+        struct frame_result *result = &r->results[r->done];
         struct error wrong = ERROR_NONE;
-        if (!generator_frame(result, generator, chosen[i], &wrong)) {
-            /* One bad photograph is no reason to leave the others. */
-            if (failed++) error_print(&wrong, "staffage-gen");
-            else first = wrong;
+        if (!generator_frame(result, r->generator, r->chosen[i], &wrong)) {
+            if (r->failed++) error_print(&wrong, "staffage-gen");
+            else r->first = wrong;
             continue;
         }
-        *(result->kept ? &kept : &made) += 1;
-        entries[done++] = (struct makefile_frame){ .name = result->name, .empty = result->empty };
-        if (result->empty) continue;
-        int width = result->view.width_px, height = result->view.height_px;
-        entries[done - 1] = (struct makefile_frame){
-            .name = result->name,
-            .width_px = { width, width, width },
-            .height_px = { height, height, height },
-            .options = { settings.object_antialias, settings.receiver_antialias, settings.receiver_antialias },
-        };
+        *(result->kept ? &r->kept : &r->made) += 1;
+        r->entries[r->done++] = makefile_entry(result, &settings);
     }
+}
+
+static bool generate_frames(struct generator *generator, const char *templates, const struct options *o, struct error *err)
+{
+    struct run r;
     size_t others = 0;
-    ok = done == 0 || (generator_write_run(generator, results, done, &others, err) &&
-                       makefile_write(o->out, templates, entries, done, err));
-    if (ok && done) printf("staffage: generated %zu frame%s, %zu unchanged\n", made, made == 1 ? "" : "s", kept);
+    bool ok = choose_frames(&r, generator, o, err) && generator_prepare(generator, r.chosen, r.n, err);
+    if (ok) generate_each(&r);
+    ok = ok && (r.done == 0 || (generator_write_run(generator, r.results, r.done, &others, err) &&
+                                makefile_write(o->out, templates, r.entries, r.done, err)));
+    if (ok && r.done) printf("staffage: generated %zu frame%s, %zu unchanged\n", r.made, r.made == 1 ? "" : "s", r.kept);
     if (ok && others)
         fprintf(stderr, "staffage-gen: warning: %s holds %zu frame%s of another seed, scene or version, which no longer count: "
                 "take another folder (-o) to keep them apart\n", o->out, others, others == 1 ? "" : "s");
-    if (ok && failed) {
-        if (n > 1) fprintf(stderr, "staffage-gen: %zu of %zu frames could not be generated\n", failed, n);
-        *err = first;
+    if (ok && r.failed) {
+        if (r.n > 1) fprintf(stderr, "staffage-gen: %zu of %zu frames could not be generated\n", r.failed, r.n);
+        *err = r.first;
         ok = false;
     }
-out:
-    free(chosen);
-    free(entries);
-    free(results);
+    run_release(&r);
+    return ok;
+}
+
+static void tell_findings(const struct generator *generator)
+{
+    for (size_t i = 0; i < generator_warning_count(generator); i++)
+        fprintf(stderr, "staffage-gen: warning: %s\n", generator_warning(generator, i));
+    char *light = generator_light_text(generator);
+    if (light) fputs(light, stdout);
+    free(light);
+}
+
+static bool generate(const struct options *o, struct error *err)
+{
+    struct scene *scene = NULL;
+    struct generator *generator = NULL;
+    struct catalogue_folders folders = { 0 };
+    char *templates = string_format("%s/templates", data_folder());
+    char *rules = string_format("%s/templates/materials.rules", data_folder());
+    bool ok = catalogue_folders_init(&folders, PKGDATADIR, err) && scene_read(&scene, o->scene, folders.list, err);
+    if (ok && o->quality >= 0) scene->quality = (enum quality)o->quality;
+    if (ok && o->has_seed) scene->seed = o->seed;
+    ok = ok && (!o->light || ask_for_light(scene, err)) && generator_create(&generator, scene, o->out, rules, err);
+    if (ok) tell_findings(generator);
+    ok = ok && (o->light || generate_frames(generator, templates, o, err));
     generator_destroy(generator);
     scene_destroy(scene);
     catalogue_folders_release(&folders);
