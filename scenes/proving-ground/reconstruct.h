@@ -6,8 +6,6 @@
 #include "cases.h"
 #include "lib/image.h"
 
-#define PROVING_MESH_ERROR_M 0.02   /* standard deviation of the waves, along z */
-#define PROVING_MESH_WAVE_M 1.6     /* their length */
 #define PROVING_MESH_EDGE_M 1.0     /* the longest edge */
 
 /* Write a PLY.
