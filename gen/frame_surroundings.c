@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #define LOWEST_SUN 0.05 /* its rays' slope, for a map along them */
+#define PAST_PLACE 1.02 /* of the place's reach: no part of it is behind the circle */
 #define ROOM 1.2   /* the circle is so many times as far from the camera as what is within it */
 #define BODY_M 1.0 /* height over the ground at which entities look round on a plane */
 #define OVER_CARS_M 2.2 /* over a place: what stands near by hides less of what stands behind it */
@@ -176,6 +177,15 @@ static bool write_panorama(struct pass_surroundings *out, double *radius_m, cons
     return ok;
 }
 
+/* How far away, level, the place goes on in any direction, as a box. What the photograph shows past it stands there. */
+static double place_reach(const struct frame *f, struct vec3 from_m)
+{
+    struct vec3 low, high;
+    if (!f->stage->mesh) return 0;
+    static_mesh_bounds(f->stage->mesh, &low, &high);
+    return PAST_PLACE * hypot(fmax(from_m.x - low.x, high.x - from_m.x), fmax(from_m.y - low.y, high.y - from_m.y));
+}
+
 /* A measured sky has what stands round it. */
 static bool write_sky(struct pass_surroundings *out, const double color_gain[3], const struct frame *f, const struct seen *seen,
                       struct error *err)
@@ -186,13 +196,13 @@ static bool write_sky(struct pass_surroundings *out, const double color_gain[3],
     double ground = f->stage->mesh ? from.z - look_round_m(f) : plane_height(&f->scene->ground, eye.x, eye.y);
     struct panorama_input in = {
         .seen = seen, .light = f->context->light, .from_m = from, .height_m = eye.z - ground,
-        .told = !f->scene->skyline.assumed, .place = f->stage->mesh,
+        .told = !f->scene->skyline.assumed, .place = f->stage->mesh, .past_m = place_reach(f, from),
         .place_depth = &f->labels.place_depth, .color_gain = { color_gain[0], color_gain[1], color_gain[2] },
     };
     double radius = 0;
     if (!write_panorama(out, &radius, f, &in, err)) return false;
-    out->circle_m = vec3(eye.x, eye.y, ground);
-    if (radius > 0) out->circle_radius_m = circle_radius(f, radius);
+    out->circle_m = in.place ? vec3(from.x, from.y, ground) : vec3(eye.x, eye.y, ground);
+    out->circle_radius_m = in.place ? in.past_m : radius > 0 ? circle_radius(f, radius) : 0;
     return true;
 }
 

@@ -120,6 +120,8 @@ struct sight {
     double rgb[3];   /* radiance */
     double known;    /* 0: something hides it */
     bool open;       /* in a column, from the horizon upward: the picture showed the sky, and what stands around ends below */
+    bool has_ground; /* in a column, from below: level ground was met, the farthest of this radiance: */
+    double ground[3];
 };
 
 /* Mix what the picture shows at a pixel position in.
@@ -150,6 +152,21 @@ static struct vec3 look_from(const struct panorama_input *in, struct vec3 d)
     return vec3_add(in->from_m, vec3_scale(d, way));
 }
 
+/* Does the picture show a point of the place, and where? */
+static bool is_shown(const struct panorama_input *in, struct vec2 *q, struct vec3 p, struct vec3 normal)
+{
+    struct vec3 to_eye = vec3_sub(in->seen->world_from_camera.translation, p);
+    double range = vec3_norm(to_eye);
+    return seen_project(in->seen, q, p) && !seen_hidden(in->seen, *q) && !seen_beside_nearer(in->seen, in->place_depth, *q, p, normal) &&
+           !static_mesh_blocks(in->place, p, vec3_scale(to_eye, 1 / range), OFF_PLACE_M, range);
+}
+
+static void keep_ground(struct sight *sight)
+{
+    sight->has_ground = true;
+    memcpy(sight->ground, sight->rgb, sizeof sight->ground);
+}
+
 /* What the place shows in a direction. False where it is open. */
 static bool of_place(struct sight *sight, const struct panorama_input *in, struct vec3 d)
 {
@@ -161,13 +178,9 @@ static bool of_place(struct sight *sight, const struct panorama_input *in, struc
     if (!isfinite(hit.range_m)) return false;
     static_mesh_color(in->place, own, &hit, (vec3_norm(vec3_sub(from, in->from_m)) + hit.range_m) * 2 * M_PI / WIDTH);
     for (int c = 0; c < 3; c++) sight->rgb[c] = (double)own[c] * in->color_gain[c];
-    struct vec3 p = vec3_add(from, vec3_scale(d, hit.range_m)), eye = in->seen->world_from_camera.translation;
-    if (!seen_project(in->seen, &q, p) || seen_hidden(in->seen, q)) return true;
-    struct vec3 to_eye = vec3_sub(eye, p);
-    double range = vec3_norm(to_eye);
-    if (!seen_beside_nearer(in->seen, in->place_depth, q, p, static_mesh_normal(in->place, hit.triangle)) &&
-        !static_mesh_blocks(in->place, p, vec3_scale(to_eye, 1 / range), OFF_PLACE_M, range))
-        mix_picture(sight, in->seen, q, NULL, NULL, false);
+    struct vec3 p = vec3_add(from, vec3_scale(d, hit.range_m)), normal = static_mesh_normal(in->place, hit.triangle);
+    if (is_shown(in, &q, p, normal)) mix_picture(sight, in->seen, q, NULL, NULL, false);
+    if (p.z < in->from_m.z && fabs(normal.z) > RELIEF_LEVEL) keep_ground(sight);
     return true;
 }
 
@@ -182,21 +195,24 @@ static bool shows_place(const struct image *place_depth, struct vec2 q)
     return false;
 }
 
-/* Rays tell what is of a place: what the picture shows past it is as far as the sky, and level ground goes on till there. */
+/* Rays tell what is of a place: what the picture shows past it stands round it, and level ground goes on till there. */
 static bool past_place(struct sight *sight, const struct panorama_input *in, struct vec3 d, const double *sky)
 {
-    double ground_m = in->seen->world_from_camera.translation.z - in->height_m, way = SKY_FAR_M;
+    double ground_m = in->seen->world_from_camera.translation.z - in->height_m, way = fmin(SKY_FAR_M, in->past_m / hypot(d.x, d.y));
     struct vec2 q;
     if (d.z < 0) way = fmin(way, (in->from_m.z - ground_m) / -d.z);
     if (!(way > 0) || !seen_project(in->seen, &q, vec3_add(in->from_m, vec3_scale(d, way))) || shows_place(in->place_depth, q)) return false;
     return mix_picture(sight, in->seen, q, sky, NULL, false) > 0;
 }
 
-/* The light's own ground. */
-static void below(struct sight *sight, const struct panorama_input *in)
+/* Ground that no ray met: as where the place ends, or else the light's own. Returns whether the picture shows it. */
+static bool below(struct sight *sight, const struct panorama_input *in, struct vec3 d)
 {
     const float *ground = image_f32(&in->light->sky, 0, in->light->sky.height_px - 1);
-    for (int c = 0; c < 3; c++) sight->rgb[c] = (double)ground[c];
+    for (int c = 0; c < 3; c++) sight->rgb[c] = sight->has_ground ? sight->ground[c] : (double)ground[c];
+    if (!in->place || !past_place(sight, in, d, NULL)) return false;
+    keep_ground(sight);
+    return true;
 }
 
 /* Returns whether it is other than the light's sky. */
@@ -206,10 +222,7 @@ static bool look(struct sight *sight, const struct panorama_input *in, const str
     double aside, z, gain[3], sky[3];
     sight->known = 1;
     if (in->place && of_place(sight, in, d)) return true;
-    if (d.z < 0) {
-        below(sight, in);
-        return in->place && past_place(sight, in, d, NULL);
-    }
+    if (d.z < 0) return below(sight, in, d);
     sky_between(sky, &in->light->open_sky, d);
     sky_between(sight->rgb, &in->light->sky, d);
     bool closed = in->told && sight->rgb[1] != sky[1];

@@ -250,7 +250,7 @@ static void beyond(const struct light *light)
     image_release(&depth);
 }
 
-/* The place ends 30 m before the camera, 40 px below the horizon: what the picture shows past it is as far as the sky. */
+/* The place ends 30 m before the camera, 40 px below the horizon: what the picture shows past it stands far off, or 50 m from the body. */
 static void past_a_place(const struct light *light)
 {
     struct error err = ERROR_NONE;
@@ -275,6 +275,7 @@ static void past_a_place(const struct light *light)
     fill_px(&picture, 238, 174, 262, 186, 0.1, 0.1, 0.4);
     in.place = mesh;
     in.place_depth = &depth;
+    in.past_m = 1e6;
     if (OK(panorama_create(&p, &in, &err), "past its end")) {
         double aside = degrees(atan2(90, 200)), up = degrees(atan2(25, hypot(90, 200))), sky[3], model[3];
         OK(!(p.radius_m > 0), "nothing stands on a circle");
@@ -289,9 +290,18 @@ static void past_a_place(const struct light *light)
         radiance_at(sky, &p.radiance, 90 + degrees(atan2(90, 200)), 10);
         light_sky_radiance(model, light, vec3(-sin(atan2(90, 200)) * cos(M_PI / 18), cos(atan2(90, 200)) * cos(M_PI / 18), sin(M_PI / 18)));
         for (int c = 0; c < 3; c++) NEAR(sky[c], model[c], 0.03 * model[c], "where the picture shows the place there is the sky past it, channel %d", c);
-        const float *ground = image_f32(&light->sky, 0, light->sky.height_px - 1);
-        near_radiance(&p.radiance, 90 + degrees(atan2(18, 30)), -degrees(atan2(1, hypot(18, 30))), (double)ground[0], (double)ground[1], (double)ground[2],
-                      "or the light's own ground");
+        near_radiance(&p.radiance, 90 + degrees(atan2(18, 30)), -degrees(atan2(1, hypot(18, 30))), 0.43172, 0.43172, 0.43172,
+                      "or ground that goes on as where the place ends");
+        panorama_release(&p);
+    }
+    in.past_m = 50;
+    if (OK(panorama_create(&p, &in, &err), "past its end, 50 m from the body")) {
+        /* The camera sees (0.45 y, y), as far from the body: y = 53.76 m. */
+        struct vec3 way = vec3(0.45 * 53.76, 53.76 - 10, 6 + 25.0 / 200 * 53.76 - 1);
+        double aside = degrees(atan2(way.x, way.y)), up = degrees(atan2(way.z, 50));
+        near_radiance(&p.radiance, 90 - aside, up, 0.8, 0.2, 0.2, "what is above the horizon stands there");
+        near_radiance(&p.radiance, 90 - degrees(atan2(90, 200)), up, 0.2, 0.2, 0.2, "and not in the direction in which the camera sees it");
+        near_radiance(&p.radiance, 90 - degrees(atan2(10, 30)), -degrees(atan2(1, hypot(10, 30))), 0.2, 0.2, 0.8, "ground is where it lies");
         panorama_release(&p);
     }
     static_mesh_destroy(mesh);

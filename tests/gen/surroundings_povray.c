@@ -102,7 +102,7 @@ static void test_upright(const struct light *light, struct entity *entity, struc
     image_release(&pass);
 }
 
-/* A red disc of 6 degrees on a circle round the camera, or on a wall of a place, as it is seen from beside the ball: the ball mirrors
+/* A red disc of 6 degrees on a circle round the camera, past a place or without one, or on a wall of a place, as it is seen from beside the ball: the ball mirrors
  * it from where the ball is. */
 static void test_circle(const struct light *light, struct entity *entity, struct image *picture, double radius_m, const struct static_mesh *place)
 {
@@ -143,6 +143,13 @@ static void test_relief(const struct light *light, struct entity *entity, struct
     struct static_mesh *mesh = NULL;
     place_wall(&place, -40, 60, eye.y - sqrt(0.75) * 20, 0, 20, 0);
     if (OK(place_mesh(&mesh, &place, false, &err), "a wall")) test_circle(light, entity, picture, 0, mesh);
+    static_mesh_destroy(mesh);
+    place_free(&place);
+    /* A wall that ends before it. */
+    mesh = NULL;
+    place = (struct place){ 0 };
+    place_wall(&place, -40, -10, eye.y - sqrt(0.75) * 20, 0, 20, 0);
+    if (OK(place_mesh(&mesh, &place, false, &err), "a short wall")) test_circle(light, entity, picture, 20, mesh);
     static_mesh_destroy(mesh);
     place_free(&place);
 }
