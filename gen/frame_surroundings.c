@@ -19,7 +19,7 @@
 #include <unistd.h>
 
 #define LOWEST_SUN 0.05 /* its rays' slope, for a map along them */
-#define PAST_PLACE 1.02 /* of the place's reach: no part of it is behind the circle */
+#define PAST_PLACE 1.02 /* no part of the place is behind the circle */
 #define ROOM 1.2   /* the circle is so many times as far from the camera as what is within it */
 #define BODY_M 1.0 /* height over the ground at which entities look round on a plane */
 #define OVER_CARS_M 2.2 /* over a place: what stands near by hides less of what stands behind it */
@@ -177,13 +177,16 @@ static bool write_panorama(struct pass_surroundings *out, double *radius_m, cons
     return ok;
 }
 
-/* How far away, level, the place goes on in any direction, as a box. What the photograph shows past it stands there. */
-static double place_reach(const struct frame *f, struct vec3 from_m)
+/* How far away, level, stands what the photograph shows past the place: behind all of it, and so far off that it is no ground. A
+ * new view shows nothing there. */
+static double past_place(const struct frame *f, const struct seen *seen, struct vec3 low_m, struct vec3 high_m, struct vec3 from_m,
+                         double ground_m)
 {
-    struct vec3 low, high;
-    if (!f->stage->mesh) return 0;
-    static_mesh_bounds(f->stage->mesh, &low, &high);
-    return PAST_PLACE * hypot(fmax(from_m.x - low.x, high.x - from_m.x), fmax(from_m.y - low.y, high.y - from_m.y));
+    struct vec3 eye = f->shot->world_from_camera.translation;
+    if (!f->photograph[0]) return 0;
+    double east_m = fmax(from_m.x - low_m.x, high_m.x - from_m.x), north_m = fmax(from_m.y - low_m.y, high_m.y - from_m.y);
+    double past_m = fmax(hypot(east_m, north_m), ROOM * hypot(eye.x - from_m.x, eye.y - from_m.y));
+    return PAST_PLACE * fmax(past_m, seen_ground_reach(seen, eye.z - ground_m));
 }
 
 /* A measured sky has what stands round it. */
@@ -196,12 +199,18 @@ static bool write_sky(struct pass_surroundings *out, const double color_gain[3],
     double ground = f->stage->mesh ? from.z - look_round_m(f) : plane_height(&f->scene->ground, eye.x, eye.y);
     struct panorama_input in = {
         .seen = seen, .light = f->context->light, .from_m = from, .height_m = eye.z - ground,
-        .told = !f->scene->skyline.assumed, .place = f->stage->mesh, .past_m = place_reach(f, from),
+        .told = !f->scene->skyline.assumed, .place = f->stage->mesh,
         .place_depth = &f->labels.place_depth, .color_gain = { color_gain[0], color_gain[1], color_gain[2] },
     };
+    out->circle_m = vec3(eye.x, eye.y, ground);
+    if (in.place) {
+        struct vec3 low, high;
+        static_mesh_bounds(in.place, &low, &high);
+        in.past_m = past_place(f, seen, low, high, from, ground);
+        out->circle_m = vec3(from.x, from.y, fmin(ground, low.z));
+    }
     double radius = 0;
     if (!write_panorama(out, &radius, f, &in, err)) return false;
-    out->circle_m = in.place ? vec3(from.x, from.y, ground) : vec3(eye.x, eye.y, ground);
     out->circle_radius_m = in.place ? in.past_m : radius > 0 ? circle_radius(f, radius) : 0;
     return true;
 }

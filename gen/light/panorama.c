@@ -13,6 +13,8 @@ enum { WIDTH = 1024, FINE = 2 };   /* FINE: samples along a side of a pixel that
 #define TOP_SHARE 0.7 /* higher up the sides of a picture show less */
 #define OFF_PLACE_M 0.3
 #define SKY_FAR_M 1e5
+#define GROUND_RISE 0.02
+#define GROUND_STEP 0.3
 enum { AZIMUTHS = 24 };
 
 /* The circle on which stands what the picture shows beyond its ground. */
@@ -144,10 +146,12 @@ static double mix_picture(struct sight *sight, const struct seen *seen, struct v
     return trust;
 }
 
+static double ground_height(const struct panorama_input *in) { return in->seen->world_from_camera.translation.z - in->height_m; }
+
 /* Where a look begins: above the ground. */
 static struct vec3 look_from(const struct panorama_input *in, struct vec3 d)
 {
-    double above_m = in->from_m.z - (in->seen->world_from_camera.translation.z - in->height_m) - OFF_PLACE_M, way = in->beyond_m;
+    double above_m = in->from_m.z - ground_height(in) - OFF_PLACE_M, way = in->beyond_m;
     if (d.z < 0) way = fmin(way, fmax(0, above_m / -d.z));
     return vec3_add(in->from_m, vec3_scale(d, way));
 }
@@ -161,10 +165,19 @@ static bool is_shown(const struct panorama_input *in, struct vec2 *q, struct vec
            !static_mesh_blocks(in->place, p, vec3_scale(to_eye, 1 / range), OFF_PLACE_M, range);
 }
 
+/* Ground goes on as what was met last, a little of it at a time: a rough end makes no streaks. */
 static void keep_ground(struct sight *sight)
 {
+    if (sight->known <= 0) return;
+    for (int c = 0; c < 3; c++) sight->ground[c] = sight->has_ground ? sight->ground[c] + GROUND_STEP * (sight->rgb[c] - sight->ground[c]) : sight->rgb[c];
     sight->has_ground = true;
-    memcpy(sight->ground, sight->rgb, sizeof sight->ground);
+}
+
+/* Level, and no higher than ground gets to be with the distance. */
+static bool is_ground(const struct panorama_input *in, struct vec3 p, struct vec3 normal)
+{
+    double away = hypot(p.x - in->from_m.x, p.y - in->from_m.y);
+    return fabs(normal.z) > RELIEF_LEVEL && p.z < ground_height(in) + OFF_PLACE_M + GROUND_RISE * away;
 }
 
 /* What the place shows in a direction. False where it is open. */
@@ -180,7 +193,7 @@ static bool of_place(struct sight *sight, const struct panorama_input *in, struc
     for (int c = 0; c < 3; c++) sight->rgb[c] = (double)own[c] * in->color_gain[c];
     struct vec3 p = vec3_add(from, vec3_scale(d, hit.range_m)), normal = static_mesh_normal(in->place, hit.triangle);
     if (is_shown(in, &q, p, normal)) mix_picture(sight, in->seen, q, NULL, NULL, false);
-    if (p.z < in->from_m.z && fabs(normal.z) > RELIEF_LEVEL) keep_ground(sight);
+    if (d.z < 0 && is_ground(in, p, normal)) keep_ground(sight);
     return true;
 }
 
@@ -198,11 +211,14 @@ static bool shows_place(const struct image *place_depth, struct vec2 q)
 /* Rays tell what is of a place: what the picture shows past it stands round it, and level ground goes on till there. */
 static bool past_place(struct sight *sight, const struct panorama_input *in, struct vec3 d, const double *sky)
 {
-    double ground_m = in->seen->world_from_camera.translation.z - in->height_m, way = fmin(SKY_FAR_M, in->past_m / hypot(d.x, d.y));
+    double way = in->past_m / hypot(d.x, d.y);
     struct vec2 q;
-    if (d.z < 0) way = fmin(way, (in->from_m.z - ground_m) / -d.z);
-    if (!(way > 0) || !seen_project(in->seen, &q, vec3_add(in->from_m, vec3_scale(d, way))) || shows_place(in->place_depth, q)) return false;
-    return mix_picture(sight, in->seen, q, sky, NULL, false) > 0;
+    if (d.z < 0) way = fmin(way, (in->from_m.z - ground_height(in)) / -d.z);
+    if (!(way > 0)) return false;
+    struct vec3 p = vec3_add(in->from_m, vec3_scale(d, fmin(way, SKY_FAR_M)));
+    if (!seen_project(in->seen, &q, p) || shows_place(in->place_depth, q)) return false;
+    /* Below the camera, what it shows is no sky. */
+    return mix_picture(sight, in->seen, q, p.z > in->seen->world_from_camera.translation.z ? sky : NULL, NULL, false) > 0;
 }
 
 /* Ground that no ray met: as where the place ends, or else the light's own. Returns whether the picture shows it. */
@@ -255,7 +271,9 @@ static float rounded(double value)
 static void paint_pixel(float rgbw[4], struct sight *sight, const struct image *image, const struct panorama_input *in, const struct wall *wall,
                         int x, int y)
 {
-    int n = look(sight, in, wall, direction(image, x + 0.5, y + 0.5)) ? FINE : 1;
+    struct sight middle = *sight;
+    int n = look(&middle, in, wall, direction(image, x + 0.5, y + 0.5)) ? FINE : 1;
+    if (n == 1) *sight = middle;
     for (int j = n - 1; j >= 0; j--)
         for (int i = 0; i < n; i++) {
             if (n > 1) look(sight, in, wall, direction(image, x + (i + 0.5) / n, y + (j + 0.5) / n));

@@ -30,7 +30,7 @@ struct panorama_input {
     bool told;                        /* what stands around was told: a sky that is mirrored from elsewhere does not count before it */
     const struct static_mesh *place;  /* NULL: the ground is a plane */
     double beyond_m;                  /* what of the place is nearer, above the ground, is not there: what stands behind it is */
-    double past_m;                    /* so far away, level, stands what the picture shows past the place */
+    double past_m;                    /* so far away, level, stands what the picture shows past the place; 0: it shows nothing there */
     const struct image *place_depth;  /* as orthophoto_input */
     double color_gain[3];             /* as the orthophoto's */
 };

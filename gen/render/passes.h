@@ -41,7 +41,7 @@ struct pass_surroundings {
     double ground_albedo[3];        /* beyond the orthophoto */
     char sky_map[SURROUNDINGS_PATH_SIZE]; /* "": the light's sky */
     struct vec3 seen_from_m, circle_m;    /* where the map is seen from; and the middle, on the ground, of the circle that what it */
-    double circle_radius_m;               /* shows, of no relief, stands on; 0: it is as far away as the sky */
+    double circle_radius_m;               /* shows, of no relief, stands on; 0: there is none */
     struct image lighting;                /* all that stands round, and the sky, at the size of the light's; empty: that */
     /* Of relief_include_write: over a place what relief_map shows stands there, and sky_map shows what is beyond; "": none. */
     char relief_include[SURROUNDINGS_PATH_SIZE], relief_map[SURROUNDINGS_PATH_SIZE];

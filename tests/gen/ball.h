@@ -22,7 +22,7 @@ static struct scene scene = {
 
 /* What stands around, when it has a picture. */
 static struct { struct image map; struct vec3 from_m, centre_m; double radius_m; const struct relief *relief;
-                const struct hidden_place *hidden; } circle;
+                const struct hidden_place *hidden; bool no_relief_map; } circle;
 
 /* Of radius 1, its middle at `middle`. */
 static void ball(struct solid *solid)
@@ -101,7 +101,7 @@ static bool render(struct image *pass, const struct light *light, const struct e
                 free(relief);
                 free(hidden);
                 strcpy(around.relief_include, "frames/relief.inc");
-                strcpy(around.relief_map, around.sky_map);
+                if (!circle.no_relief_map) strcpy(around.relief_map, around.sky_map);
             }
         }
         p.surroundings = &around;

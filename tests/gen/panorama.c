@@ -27,6 +27,11 @@ static void near_radiance(const struct image *image, double azimuth_deg, double 
     for (int c = 0; c < 3; c++) NEAR(rgb[c], want[c], 0.01 * want[c] + 0.002, "%s, channel %d", what, c);
 }
 
+static void paint_red_above(uint8_t srgb[3], const float p[3])
+{
+    memcpy(srgb, p[2] > 0.5f && p[2] < 0.9f ? (uint8_t[]){ 220, 10, 10 } : (uint8_t[]){ 128, 128, 128 }, 3);
+}
+
 static double degrees(double radians) { return radians * 180 / M_PI; }
 
 static struct panorama_input input(const struct seen *seen, const struct light *light)
@@ -262,8 +267,10 @@ static void past_a_place(const struct light *light)
     seen_init(&seen);
     struct panorama_input in = input(&seen, light);
     place_quad(&place, (const double[4][3]){ { -50, -10, 0 }, { 50, -10, 0 }, { 50, 30, 0 }, { -50, 30, 0 } }, 0);
-    /* A board 5 m before the camera, behind the body, that hides what is past it on the left. */
+    /* A board 5 m before the camera, behind the body, that hides what is past it on the left; and a red table there. */
     place_wall(&place, -3, -1.5, 5, 0, 8, 0);
+    place.paint = paint_red_above;
+    place_quad(&place, (const double[4][3]){ { -10, 14, 0.6 }, { -6, 14, 0.6 }, { -6, 20, 0.6 }, { -10, 20, 0.6 } }, 0);
     if (!OK(place_mesh(&mesh, &place, false, &err) && image_init(&depth, WIDTH, HEIGHT, 1, PIXEL_F32, &err), "a place that ends")) return;
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) *image_f32(&depth, x, y) = x >= 80 && x < 140 && y >= 70 ? 5 : y >= 190 ? 1200.0f / ((float)y - 149.5f) : NAN;
@@ -292,6 +299,11 @@ static void past_a_place(const struct light *light)
         for (int c = 0; c < 3; c++) NEAR(sky[c], model[c], 0.03 * model[c], "where the picture shows the place there is the sky past it, channel %d", c);
         near_radiance(&p.radiance, 90 + degrees(atan2(18, 30)), -degrees(atan2(1, hypot(18, 30))), 0.43172, 0.43172, 0.43172,
                       "or ground that goes on as where the place ends");
+        double turn = 90 + degrees(atan2(7.3, 7)), there[3], on[3];
+        radiance_at(there, &p.radiance, turn, -degrees(atan2(0.4, hypot(7.3, 7))));
+        radiance_at(on, &p.radiance, turn, -0.2);
+        OK(there[0] > 20 * there[1], "the table is there (%.3f, %.3f)", there[0], there[1]);
+        OK(on[0] < 1.05 * on[1] && on[0] > 0.15, "but ground does not go on as a table (%.3f, %.3f)", on[0], on[1]);
         panorama_release(&p);
     }
     in.past_m = 50;
@@ -301,7 +313,12 @@ static void past_a_place(const struct light *light)
         double aside = degrees(atan2(way.x, way.y)), up = degrees(atan2(way.z, 50));
         near_radiance(&p.radiance, 90 - aside, up, 0.8, 0.2, 0.2, "what is above the horizon stands there");
         near_radiance(&p.radiance, 90 - degrees(atan2(90, 200)), up, 0.2, 0.2, 0.2, "and not in the direction in which the camera sees it");
-        near_radiance(&p.radiance, 90 - degrees(atan2(10, 30)), -degrees(atan2(1, hypot(10, 30))), 0.2, 0.2, 0.8, "ground is where it lies");
+        panorama_release(&p);
+    }
+    /* White from the horizon to 20 px above it: 5 m up, 50 m away, is lower than the camera, and no sky. */
+    fill_px(&picture, 190, 130, 210, 190, 1, 1, 1);
+    if (OK(panorama_create(&p, &in, &err), "with something white there")) {
+        near_radiance(&p.radiance, 90, degrees(atan2(3, 50)), 2, 2, 2, "below the camera's height it is as bright as it is shown");
         panorama_release(&p);
     }
     static_mesh_destroy(mesh);

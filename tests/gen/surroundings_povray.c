@@ -102,9 +102,10 @@ static void test_upright(const struct light *light, struct entity *entity, struc
     image_release(&pass);
 }
 
-/* A red disc of 6 degrees on a circle round the camera, past a place or without one, or on a wall of a place, as it is seen from beside the ball: the ball mirrors
- * it from where the ball is. */
-static void test_circle(const struct light *light, struct entity *entity, struct image *picture, double radius_m, const struct static_mesh *place)
+/* A red disc of 6 degrees, 20 m from the camera, on a circle round it, past a place or without one, or on a wall of a place before the
+ * circle, as it is seen from beside the ball: the ball mirrors it from where the ball is. */
+static void test_circle(const struct light *light, struct entity *entity, struct image *picture, double radius_m,
+                        const struct static_mesh *place)
 {
     struct error err = ERROR_NONE;
     struct image pass = { 0 };
@@ -142,14 +143,57 @@ static void test_relief(const struct light *light, struct entity *entity, struct
     struct place place = { 0 };
     struct static_mesh *mesh = NULL;
     place_wall(&place, -40, 60, eye.y - sqrt(0.75) * 20, 0, 20, 0);
-    if (OK(place_mesh(&mesh, &place, false, &err), "a wall")) test_circle(light, entity, picture, 0, mesh);
+    if (OK(place_mesh(&mesh, &place, false, &err), "a wall")) {
+        test_circle(light, entity, picture, 0, mesh);
+        test_circle(light, entity, picture, 60, mesh);
+    }
     static_mesh_destroy(mesh);
     place_free(&place);
-    /* A wall that ends before it. */
+    /* A wall that is before the circle, and beside the disc. */
     mesh = NULL;
     place = (struct place){ 0 };
-    place_wall(&place, -40, -10, eye.y - sqrt(0.75) * 20, 0, 20, 0);
+    place_wall(&place, -12, -6, eye.y - 10, 0, 20, 0);
     if (OK(place_mesh(&mesh, &place, false, &err), "a short wall")) test_circle(light, entity, picture, 20, mesh);
+    static_mesh_destroy(mesh);
+    place_free(&place);
+}
+
+/* Past a place the map is red below the horizon, 60 m away; nearer, the ground is the orthophoto's. Without a map of the relief the
+ * ground is level, and hides it. */
+static void test_past_ground(const struct light *light, struct entity *entity, struct image *picture)
+{
+    struct error err = ERROR_NONE;
+    struct image pass = { 0 };
+    struct place place = { 0 };
+    struct static_mesh *mesh = NULL;
+    struct relief relief = { 0 };
+    struct relief_input in = { .from_m = { 5, 3, 1 } };
+    place_wall(&place, -12, -6, eye.y - 10, 0, 2, 0);
+    bool ok = place_mesh(&mesh, &place, false, &err) && image_init(&circle.map, 512, 256, 3, PIXEL_F32, &err);
+    in.place = mesh;
+    if (!OK(ok && relief_create(&relief, &in, &err), "a short wall")) return;
+    circle.from_m = in.from_m;
+    circle.centre_m = vec3(5, 3, 0);
+    circle.radius_m = 60;
+    circle.relief = &relief;
+    for (int y = 0; y < 256; y++)
+        for (int x = 0; x < 512; x++)
+            for (int c = 0; c < 3; c++) image_f32(&circle.map, x, y)[c] = c && y >= 128 ? 0.01f : 0.5f;
+    fill_px(picture, 0, 0, WIDTH, HEIGHT, 0.2, 0.2, 0.2);
+    /* The ball's edge is a pixel to 6 degrees: from the horizon to where the orthophoto begins. */
+    double red[2] = { 0, 0 };
+    for (int told = 0; told < 2; told++) {
+        struct vec2 got, near_by = mirrored_at(vec3(2, -4, 0));
+        circle.no_relief_map = !told;
+        if (!OK(render(&pass, light, entity, picture, NULL), "a mirror ball, the relief %s", told ? "with its map" : "without")) continue;
+        red[told] = red_middle(&got, &pass);
+        OK(!(red_at(&pass, (int)near_by.x, (int)near_by.y) > 0.1), "ground near by is the orthophoto's");
+        image_release(&pass);
+    }
+    OK(red[1] > 2 * red[0] && red[1] > 1, "far off it is the map's, or else level (%.2f, %.2f)", red[1], red[0]);
+    circle.relief = NULL, circle.no_relief_map = false;
+    image_release(&circle.map);
+    relief_release(&relief);
     static_mesh_destroy(mesh);
     place_free(&place);
 }
@@ -221,6 +265,7 @@ int main(void)
     test_circle(&light, &entity, &picture, 20, NULL);
     test_circle(&light, &entity, &picture, 0, NULL);
     test_relief(&light, &entity, &picture);
+    test_past_ground(&light, &entity, &picture);
     test_hidden(&light, &entity, &picture);
     image_release(&picture);
     light_release(&light);
