@@ -15,6 +15,7 @@
 #define PLACES_ENOUGH 12.0
 #define PLACES_PLENTY 30
 #define PLACES_OF_SURFACE 4
+#define SHALLOW 0.3       /* of the light: deeper shade than that is the sun's */
 #define SKY_SHARE_MAX 0.95
 #define SKY_SEEN_SIGMA 0.08
 #define EDGES_ENOUGH 300.0
@@ -54,6 +55,13 @@ static double odds_by_surfaces(const struct shade *shade)
     return surfaces < 2 ? 0 : odds_by_looks(shade) * fmin(1, pow((double)shade->places / PLACES_PLENTY, 3)) / 3;
 }
 
+/* What stands there hides the sky as well, and so under clouds it casts shade, too, which is shallow. */
+static double odds_by_depth(const struct shade *shade)
+{
+    double left = (shade->ratio[0] + shade->ratio[1] + shade->ratio[2]) / 3;
+    return pow(fmin(1, fmax(0, 1 - left) / SHALLOW), 2);
+}
+
 /* The same where the place tells: of the edges that look like its shadows, so many it casts and so many it would
  * cast the other way round. Without sun they are as many. */
 static double odds_by_place(const struct shade *shade, const struct gathered *g)
@@ -64,7 +72,7 @@ static double odds_by_place(const struct shade *shade, const struct gathered *g)
             right += g->told[i] > 0;
             wrong += g->told[i] < 0;
         }
-    return pow((double)right / (3.0 * (double)wrong + 40), 2) * fmin(1, pow((double)shade->places / PLACES_ENOUGH, 2));
+    return pow((double)right / (3.0 * (double)wrong + 40), 2) * fmin(1, pow((double)shade->places / PLACES_ENOUGH, 2)) * odds_by_depth(shade);
 }
 
 static double pressure_of(const struct scene *s)
