@@ -13,8 +13,8 @@ enum { WIDTH = 1024, FINE = 2 };   /* FINE: samples along a side of a pixel that
 #define TOP_SHARE 0.7 /* higher up the sides of a picture show less */
 #define OFF_PLACE_M 0.3
 #define SKY_FAR_M 1e5
-#define GROUND_RISE 0.02
-#define GROUND_STEP 0.3
+#define GROUND_RISE 0.02 /* a level face counts as ground where it lies no higher than this share of how far away it is */
+#define GROUND_STEP 0.3  /* of what is met next, in the ground that goes on past the place */
 enum { AZIMUTHS = 24 };
 
 /* The circle on which stands what the picture shows beyond its ground. */
