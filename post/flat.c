@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define STEP_PX 8
+#define STEP_PX 8 /* and whole times that: the sides of a file's blocks, so that none lies in both halves of a patch */
 #define COUNT_MAX 40000.0
 
 void flat_patches_release(struct flat_patches *patches)
@@ -12,10 +12,26 @@ void flat_patches_release(struct flat_patches *patches)
     *patches = (struct flat_patches){ 0 };
 }
 
+/* Two diagonal quarters of it are a half, the others the other. */
+static void look_at_halves(struct flat_patch *patch, const struct image *rgb)
+{
+    enum { QUARTER_PX = FLAT_SIDE_PX / 2, HALF = FLAT_SIDE_PX * FLAT_SIDE_PX / 2 };
+    double sum[2] = { 0 };
+    for (int j = 0; j < FLAT_SIDE_PX; j++) {
+        const uint8_t *px = image_u8(rgb, patch->x, patch->y + j);
+        double plane = patch->level + (j - (FLAT_SIDE_PX - 1) / 2.0) * patch->down - (FLAT_SIDE_PX - 1) / 2.0 * patch->right;
+        for (int i = 0; i < FLAT_SIDE_PX; i++, px += 3, plane += patch->right) {
+            double off = px[0] + px[1] + px[2] - 3 * plane;
+            sum[i / QUARTER_PX ^ j / QUARTER_PX] += off * off;
+        }
+    }
+    for (int h = 0; h < 2; h++) patch->variance[h] = sum[h] / 3 / (HALF - 1.5);
+}
+
 static bool look(struct flat_patch *patch, const struct image *rgb, int x, int y)
 {
-    /* Of whole numbers, with twice the distance from the middle: exact. */
-    int64_t sum = 0, squares = 0, right = 0, down = 0, spread = 0;
+    /* Of whole numbers, with twice the distance from the middle: the ramp is exact. */
+    int64_t sum = 0, right = 0, down = 0, spread = 0;
     for (int j = 0; j < FLAT_SIDE_PX; j++) {
         const uint8_t *px = image_u8(rgb, x, y + j);
         int row = 2 * j + 1 - FLAT_SIDE_PX;
@@ -25,21 +41,20 @@ static bool look(struct flat_patch *patch, const struct image *rgb, int x, int y
                 if (px[c] == 0 || px[c] == 255) return false;
             int v = px[0] + px[1] + px[2];
             sum += v;
-            squares += v * v;
             right += v * (2 * i + 1 - FLAT_SIDE_PX);
             down += v * row;
         }
     }
     const double n = FLAT_SIDE_PX * FLAT_SIDE_PX, s = (double)spread, mean = (double)sum / n;
-    double residual = (double)squares - n * mean * mean - ((double)right * (double)right + (double)down * (double)down) / s;
-    *patch = (struct flat_patch){ x, y, mean / 3, 2 * (double)right / s / 3, 2 * (double)down / s / 3, fmax(residual, 0) / 3 / (n - 3) };
+    *patch = (struct flat_patch){ x, y, mean / 3, 2 * (double)right / s / 3, 2 * (double)down / s / 3, { 0 } };
+    look_at_halves(patch, rgb);
     return true;
 }
 
 bool flat_patches_find(struct flat_patches *patches, const struct image *rgb, struct error *err)
 {
     int step = (int)ceil(sqrt((double)rgb->width_px * rgb->height_px / COUNT_MAX));
-    if (step < STEP_PX) step = STEP_PX;
+    step = (step + STEP_PX - 1) / STEP_PX * STEP_PX;
     size_t room = ((size_t)(rgb->width_px / step) + 1) * ((size_t)(rgb->height_px / step) + 1);
     *patches = (struct flat_patches){ malloc(room * sizeof *patches->patch), 0 };
     if (!patches->patch) return error_set(err, ERR_MEMORY, "no memory for the patches of a photograph");

@@ -15,7 +15,7 @@ struct flat_patch {
     int x, y;           /* its first pixel */
     double level;       /* mean of R, G and B, 0..255 */
     double right, down; /* how much that rises in a pixel */
-    double variance;    /* of (R + G + B) / sqrt(3) about the ramp */
+    double variance[2]; /* of (R + G + B) / sqrt(3) about the ramp, in either half: noise differs from one to the other, texture less */
 };
 struct flat_patches { struct flat_patch *patch; size_t count; };
 

@@ -27,7 +27,8 @@ struct grain {
     double correlation[3][GRAIN_LAGS][GRAIN_LAGS]; /* of each colour with itself [3+dy][3+dx] away; 1 in the middle */
 };
 
-/* The lower envelope of the patches' variances over brightness, since texture only adds to noise.
+/* The lower envelope of the patches' variances over brightness, since texture only adds to noise. Patches are chosen by one
+ * half of their pixels and measured by the other, or the flattest of many would be flat by luck.
  * Src: after C. Liu, W. T. Freeman, R. Szeliski, S. B. Kang, Noise estimation from a single image, CVPR 2006
  * In:  patches, of `rgb` (U8, 3 channels). Err: ERR_MEMORY */
 bool grain_measure(struct grain *grain, const struct image *rgb, const struct flat_patches *patches, struct error *err);

@@ -176,6 +176,29 @@ static void check_bright_texture(void)
     image_release(&rgb);
 }
 
+/* A street from above: asphalt as fine as a pixel, and on it the roofs of five cars of the same brightness. */
+static void check_asphalt(void)
+{
+    static const struct rect roofs[] = { { 101, 90, 151, 122 }, { 300, 300, 350, 332 }, { 517, 203, 549, 253 }, { 40, 250, 90, 282 }, { 410, 33, 442, 83 } };
+    struct error err = ERROR_NONE;
+    struct flat_patches patches;
+    struct grain g;
+    struct image rgb = grey(W, H, 0);
+    for (int y = 0; y < H + 2; y++)
+        for (int x = 0; x < W + 2; x++) field[0][y][x] = noise();
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++) {
+            double stones = 2 * smooth_noise(0, x, y);
+            for (size_t r = 0; r < sizeof roofs / sizeof *roofs; r++)
+                if (x >= roofs[r].x0 && x < roofs[r].x1 && y >= roofs[r].y0 && y < roofs[r].y1) stones = 0;
+            for (int c = 0; c < 3; c++) image_u8(&rgb, x, y)[c] = byte(84 + stones + noise());
+        }
+    OK(flat_patches_find(&patches, &rgb, &err) && grain_measure(&g, &rgb, &patches, &err), "asphalt, and a fortieth of it roofs");
+    NEAR(grain_sigma(&g, 84, 1), 1, 0.15, "the roofs' noise is told, not the asphalt's");
+    flat_patches_release(&patches);
+    image_release(&rgb);
+}
+
 int main(void)
 {
     struct error err = ERROR_NONE;
@@ -201,6 +224,7 @@ int main(void)
     image_release(&rgb);
 
     check_bright_texture();
+    check_asphalt();
     check_pressed(1, 3);
     check_pressed(2, 4);
     check_pressed(3, 6);
