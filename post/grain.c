@@ -13,7 +13,7 @@
 #define SPREAD 0.15       /* relative standard deviation of a patch's variance where there is noise alone, which
                            * neighbours share: 0.09 for 253 independent pixels */
 #define VARIANCE_MIN 0.01 /* below, rounding hides what there is */
-#define ALIKE_MAX 0.95    /* noise from a pixel to the next */
+#define ALIKE_MAX 0.95    /* noise from a pixel to the next: more is what rounding leaves of very little */
 #define DARKER 128.0      /* levels down which a camera's noise at most doubles: of light it grows as the root, and the tone curve */
 #define BRIGHTER 512.0    /* makes that nearly even, or less up to the bright. And levels up which it does; */
 #define SHADOWS 64        /* but a curve that presses what is darker than this presses its noise with it */
@@ -199,9 +199,9 @@ static void without_texture(double by[GRAIN_LEVELS], struct grain *g, const stru
     }
     qsort(sorted, n, sizeof *sorted, compare_doubles);
     for (int i = 0; i < GRAIN_LEVELS; i++) {
-        double variance = g->covariance[i][color][color], share = (double)sums[i].patches, noise = n > 0 ? fmin(sorted[n / 4], ALIKE_MAX) : 0;
+        double variance = g->covariance[i][color][color], share = (double)sums[i].patches, noise = n > 0 ? sorted[n / 4] : 0;
         if (!g->seen[i] || variance < VARIANCE_MIN) continue;
-        by[i] = fmin(fmax((1 - alike[i]) / (1 - noise), 0), 1);
+        if (noise < ALIKE_MAX) by[i] = fmin(fmax((1 - alike[i]) / (1 - noise), 0), 1);
         if (alike[i] > noise) continue;
         weight += share;
         for (int k = 0; k < GRAIN_LAGS * GRAIN_LAGS; k++)
