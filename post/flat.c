@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define STEP_PX 8 /* and whole times that: the sides of a file's blocks, so that none lies in both halves of a patch */
+#define STEP_PX 8 /* patches begin at whole times that: a block of a file's brightness then lies in one half alone */
 #define COUNT_MAX 40000.0
 
 void flat_patches_release(struct flat_patches *patches)
@@ -19,9 +19,9 @@ static void look_at_halves(struct flat_patch *patch, const struct image *rgb)
     double sum[2] = { 0 };
     for (int j = 0; j < FLAT_SIDE_PX; j++) {
         const uint8_t *px = image_u8(rgb, patch->x, patch->y + j);
-        double plane = patch->level + (j - (FLAT_SIDE_PX - 1) / 2.0) * patch->down - (FLAT_SIDE_PX - 1) / 2.0 * patch->right;
-        for (int i = 0; i < FLAT_SIDE_PX; i++, px += 3, plane += patch->right) {
-            double off = px[0] + px[1] + px[2] - 3 * plane;
+        double ramp = patch->level + (j - (FLAT_SIDE_PX - 1) / 2.0) * patch->down - (FLAT_SIDE_PX - 1) / 2.0 * patch->right;
+        for (int i = 0; i < FLAT_SIDE_PX; i++, px += 3, ramp += patch->right) {
+            double off = px[0] + px[1] + px[2] - 3 * ramp;
             sum[i / QUARTER_PX ^ j / QUARTER_PX] += off * off;
         }
     }
@@ -51,15 +51,21 @@ static bool look(struct flat_patch *patch, const struct image *rgb, int x, int y
     return true;
 }
 
+static int start_of(int i, double step) { return (int)(i * step) / STEP_PX * STEP_PX; }
+
+double flat_patch_variance(const struct flat_patch *patch)
+{
+    return (patch->variance[0] + patch->variance[1]) / 2;
+}
+
 bool flat_patches_find(struct flat_patches *patches, const struct image *rgb, struct error *err)
 {
-    int step = (int)ceil(sqrt((double)rgb->width_px * rgb->height_px / COUNT_MAX));
-    step = (step + STEP_PX - 1) / STEP_PX * STEP_PX;
+    double step = fmax(sqrt((double)rgb->width_px * rgb->height_px / COUNT_MAX), STEP_PX);
     size_t room = ((size_t)(rgb->width_px / step) + 1) * ((size_t)(rgb->height_px / step) + 1);
     *patches = (struct flat_patches){ malloc(room * sizeof *patches->patch), 0 };
     if (!patches->patch) return error_set(err, ERR_MEMORY, "no memory for the patches of a photograph");
-    for (int y = 0; y + FLAT_SIDE_PX <= rgb->height_px; y += step)
-        for (int x = 0; x + FLAT_SIDE_PX <= rgb->width_px; x += step)
-            if (look(&patches->patch[patches->count], rgb, x, y)) patches->count++;
+    for (int j = 0; start_of(j, step) + FLAT_SIDE_PX <= rgb->height_px; j++)
+        for (int i = 0; start_of(i, step) + FLAT_SIDE_PX <= rgb->width_px; i++)
+            if (look(&patches->patch[patches->count], rgb, start_of(i, step), start_of(j, step))) patches->count++;
     return true;
 }

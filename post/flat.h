@@ -15,8 +15,10 @@ struct flat_patch {
     int x, y;           /* its first pixel */
     double level;       /* mean of R, G and B, 0..255 */
     double right, down; /* how much that rises in a pixel */
-    double variance[2]; /* of (R + G + B) / sqrt(3) about the ramp, in either half: noise differs from one to the other, texture less */
+    double variance[2]; /* of (R + G + B) / sqrt(3) about the ramp, of either half: two diagonal quarters, and the others */
 };
+double flat_patch_variance(const struct flat_patch *patch); /* of both halves */
+
 struct flat_patches { struct flat_patch *patch; size_t count; };
 
 /* Evenly spread over the photograph, some ten thousands at most, without those that touch 0 or 255

@@ -7,13 +7,12 @@
 #define LEVEL_STEP (256.0 / GRAIN_LEVELS)
 #define PATCHES_MIN 12    /* at a level, to tell anything about it */
 #define PATCHES_USED 160  /* at a level; more tell nothing new */
-#define FLATTEST 0.005    /* this share of the halves of patches at a level tells its noise, */
-#define FLATTEST_MIN 12   /* as few as that, whose median has a standard deviation of 9 %, */
-#define FLATTEST_MAX 160  /* and no more: 2 % */
+#define FLATTEST 0.005    /* this share of the halves of patches at a level tells how much noise there may be, */
+#define FLATTEST_MIN 12   /* as few as that */
+#define FLATTEST_MAX 160  /* and no more */
 #define SPREAD 0.15       /* relative standard deviation of a patch's variance where there is noise alone, which
                            * neighbours share: 0.09 for 253 independent pixels */
 #define VARIANCE_MIN 0.01 /* below, rounding hides what there is */
-#define ALIKE_MAX 0.95    /* noise from a pixel to the next: more is what rounding leaves of very little */
 #define DARKER 128.0      /* levels down which a camera's noise at most doubles: of light it grows as the root, and the tone curve */
 #define BRIGHTER 512.0    /* makes that nearly even, or less up to the bright. And levels up which it does; */
 #define SHADOWS 64        /* but a curve that presses what is darker than this presses its noise with it */
@@ -28,23 +27,29 @@ static const double opponent[3][3] = {
 
 /* --- measuring --- */
 
-/* Half of a patch, and what the other half has. */
-struct half { const struct flat_patch *patch; double variance, other; };
+static int by_variance(const void *a, const void *b)
+{
+    const struct flat_patch *p = *(const struct flat_patch *const *)a, *q = *(const struct flat_patch *const *)b;
+    double v = flat_patch_variance(p), w = flat_patch_variance(q);
+    if (v != w) return v < w ? -1 : 1;
+    return p < q ? -1 : p > q;
+}
 
-static int compare_halves(const void *a, const void *b)
+/* Variance of one half of a patch, and of the other. */
+struct half { double variance, other; };
+
+static int by_half(const void *a, const void *b)
 {
     const struct half *p = a, *q = b;
     if (p->variance != q->variance) return p->variance < q->variance ? -1 : 1;
-    return p->patch != q->patch ? (p->patch < q->patch ? -1 : 1) : (p->other > q->other) - (p->other < q->other);
+    return (p->other > q->other) - (p->other < q->other);
 }
 
-static int compare_doubles(const void *a, const void *b)
+static int by_other(const void *a, const void *b)
 {
-    double x = *(const double *)a, y = *(const double *)b;
+    double x = ((const struct half *)a)->other, y = ((const struct half *)b)->other;
     return (x > y) - (x < y);
 }
-
-static double variance_of(const struct flat_patch *p) { return (p->variance[0] + p->variance[1]) / 2; }
 
 static int level_of(const struct flat_patch *p)
 {
@@ -53,11 +58,7 @@ static int level_of(const struct flat_patch *p)
 }
 
 /* Sums over patches that show noise alone. */
-struct sums {
-    double covariance[3][3], product[3][GRAIN_LAGS][GRAIN_LAGS];
-    double scale; /* these patches may be flatter than noise is: by that they are too small */
-    size_t patches;
-};
+struct sums { double covariance[3][3], product[3][GRAIN_LAGS][GRAIN_LAGS]; size_t patches; };
 
 /* Take constant, slopes and curvatures of light out of a patch, which are the place's. */
 static void flatten(colors v[FLAT_SIDE_PX * FLAT_SIDE_PX])
@@ -127,7 +128,7 @@ static double give_back(double product[GRAIN_LAGS][GRAIN_LAGS])
 static void finish_level(double covariance[3][3], struct sums *s)
 {
     const double rounding = 1.0 / 12;
-    double grown[3], n = (double)s->patches / s->scale;
+    double grown[3], n = (double)s->patches;
     for (int c = 0; c < 3; c++) {
         for (int i = 0; i < GRAIN_LAGS * GRAIN_LAGS; i++) s->product[c][i / GRAIN_LAGS][i % GRAIN_LAGS] /= n;
         grown[c] = give_back(s->product[c]);
@@ -139,104 +140,86 @@ static void finish_level(double covariance[3][3], struct sums *s)
             covariance[a][b] = a == b ? s->product[a][GRAIN_LAG_PX][GRAIN_LAG_PX] : s->covariance[a][b] / n * sqrt(grown[a] * grown[b]);
 }
 
-/* Of noise alone: what is flat by luck in one half is not in the other, what is flat because nothing is there is in both. In: n sorted halves */
-static double noise_in(const struct half *sorted, size_t n)
+/* Variance of a patch with noise alone: what is flat by luck in one half is hardly so in the other, what is flat because nothing
+ * is there is so in both. In: n patches of one level; halves, room for 2 n */
+static double envelope_of(const struct flat_patch **patches, size_t n, struct half *halves)
 {
-    double others[FLATTEST_MAX];
-    size_t flattest = (size_t)fmin(fmax(FLATTEST * (double)n, FLATTEST_MIN), FLATTEST_MAX);
-    for (size_t i = 0; i < flattest; i++) others[i] = sorted[i].other;
-    qsort(others, flattest, sizeof *others, compare_doubles);
-    return (others[(flattest - 1) / 2] + others[flattest / 2]) / 2;
+    for (size_t i = 0; i < 2 * n; i++)
+        halves[i] = (struct half){ patches[i / 2]->variance[i % 2], patches[i / 2]->variance[1 - i % 2] };
+    qsort(halves, 2 * n, sizeof *halves, by_half);
+    size_t flattest = (size_t)fmin(fmax(2 * FLATTEST * (double)n, FLATTEST_MIN), FLATTEST_MAX);
+    qsort(halves, flattest, sizeof *halves, by_other);
+    return (halves[(flattest - 1) / 2].other + halves[flattest / 2].other) / 2;
 }
 
-/* Of the patches of one level, use those that noise alone explains. halves: room for two of each patch */
-static void measure_level(struct sums *sums, const struct image *rgb, const struct flat_patches *patches, int level, struct half *halves)
+/* Of the patches of one level, sorted by variance, use those that noise alone explains. */
+static void measure_level(struct sums *sums, const struct image *rgb, const struct flat_patch **sorted, size_t n, struct half *halves)
 {
-    const struct flat_patch *end = patches->patch + patches->count;
-    size_t n = 0, alone = 0, each, k = 0;
-    double all = 0;
     *sums = (struct sums){ .patches = 0 };
-    for (const struct flat_patch *p = patches->patch; p < end; p++)
-        for (int h = 0; h < 2 && level_of(p) == level; h++) halves[n++] = (struct half){ p, p->variance[h], p->variance[1 - h] };
-    if (n < 2 * PATCHES_MIN) return;
-    qsort(halves, n, sizeof *halves, compare_halves);
-    double noise = noise_in(halves, n), most = noise * (1 + 2 * SPREAD);
-    for (const struct flat_patch *p = patches->patch; p < end; p++) alone += level_of(p) == level && variance_of(p) <= most;
-    each = alone / PATCHES_USED + 1;
-    for (const struct flat_patch *p = patches->patch; p < end; p++)
-        if (level_of(p) == level && variance_of(p) <= most && k++ % each == 0) {
-            add_patch(sums, rgb, p);
-            all += variance_of(p);
-        }
-    sums->scale = all > 0 ? noise * (double)sums->patches / all : 1;
+    if (n < PATCHES_MIN) return;
+    double envelope = envelope_of(sorted, n, halves);
+    size_t used = 0;
+    while (used < n && flat_patch_variance(sorted[used]) <= envelope * (1 + 2 * SPREAD)) used++;
+    size_t wanted = used < PATCHES_USED ? used : PATCHES_USED;
+    for (size_t i = 0; i < wanted; i++) add_patch(sums, rgb, sorted[i * used / wanted]);
 }
 
-/* From a pixel to the next. */
+/* Of the brightness, from a pixel to the next. */
 static double next_alike(const double product[GRAIN_LAGS][GRAIN_LAGS])
 {
     const int m = GRAIN_LAG_PX;
     return product[m][m] > 0 ? (product[m][m + 1] + product[m + 1][m]) / 2 / product[m][m] : 1;
 }
 
-/* Multiply variances, each colour's with its own. */
-static void scale_level(double covariance[3][3], const double by[3])
-{
-    for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++) covariance[a][b] *= sqrt(by[a] * by[b]);
-}
-
 /* A camera's noise is as alike from pixel to pixel at every level; texture, more so, is added to it. So the
- * least alike quarter of the levels tells how the noise of a colour is, and elsewhere the noise is what differs as much
- * from a pixel to the next as it must. Out: by, what variances are to be multiplied with */
-static void without_texture(double by[GRAIN_LEVELS], struct grain *g, const struct sums sums[GRAIN_LEVELS], int color)
+ * least alike quarter of the levels tells how the noise is, and elsewhere the noise is what differs as much
+ * from a pixel to the next as it must. */
+static void without_texture(struct grain *g, const struct sums sums[GRAIN_LEVELS])
 {
-    double alike[GRAIN_LEVELS], sorted[GRAIN_LEVELS], weight = 0, (*correlation)[GRAIN_LAGS] = g->correlation[color];
-    size_t n = 0;
+    double alike[GRAIN_LEVELS], sorted[GRAIN_LEVELS], weight[3] = { 0 }, noise;
+    int n = 0;
     for (int i = 0; i < GRAIN_LEVELS; i++) {
-        by[i] = 1;
-        alike[i] = next_alike(sums[i].product[color]);
-        if (g->seen[i] && g->covariance[i][color][color] >= VARIANCE_MIN) sorted[n++] = alike[i];
+        alike[i] = next_alike(sums[i].product[0]);
+        if (!g->seen[i] || g->covariance[i][0][0] < VARIANCE_MIN) continue;
+        int k = n++;
+        for (; k > 0 && sorted[k - 1] > alike[i]; k--) sorted[k] = sorted[k - 1];
+        sorted[k] = alike[i];
     }
-    qsort(sorted, n, sizeof *sorted, compare_doubles);
+    noise = n > 0 ? sorted[n / 4] : 0;
     for (int i = 0; i < GRAIN_LEVELS; i++) {
-        double variance = g->covariance[i][color][color], share = (double)sums[i].patches, noise = n > 0 ? sorted[n / 4] : 0;
-        if (!g->seen[i] || variance < VARIANCE_MIN) continue;
-        if (noise < ALIKE_MAX) by[i] = fmin(fmax((1 - alike[i]) / (1 - noise), 0), 1);
-        if (alike[i] > noise) continue;
-        weight += share;
+        if (!g->seen[i] || g->covariance[i][0][0] < VARIANCE_MIN) continue;
+        double scale = fmin((1 - alike[i]) / (1 - noise), 1);
+        for (int c = 0; c < 3; c++) {
+            double variance = g->covariance[i][c][c], share = (double)sums[i].patches;
+            if (alike[i] > noise || variance < VARIANCE_MIN) continue;
+            weight[c] += share;
+            for (int k = 0; k < GRAIN_LAGS * GRAIN_LAGS; k++)
+                g->correlation[c][k / GRAIN_LAGS][k % GRAIN_LAGS] += share * sums[i].product[c][k / GRAIN_LAGS][k % GRAIN_LAGS] / variance;
+        }
+        for (int k = 0; k < 9; k++) g->covariance[i][k / 3][k % 3] *= scale;
+    }
+    for (int c = 0; c < 3; c++) {
         for (int k = 0; k < GRAIN_LAGS * GRAIN_LAGS; k++)
-            correlation[k / GRAIN_LAGS][k % GRAIN_LAGS] += share * sums[i].product[color][k / GRAIN_LAGS][k % GRAIN_LAGS] / variance;
+            if (weight[c] > 0) g->correlation[c][k / GRAIN_LAGS][k % GRAIN_LAGS] /= weight[c];
+        g->correlation[c][GRAIN_LAG_PX][GRAIN_LAG_PX] = 1;
     }
-    for (int k = 0; k < GRAIN_LAGS * GRAIN_LAGS && weight > 0; k++) correlation[k / GRAIN_LAGS][k % GRAIN_LAGS] /= weight;
-    correlation[GRAIN_LAG_PX][GRAIN_LAG_PX] = 1;
 }
 
 static double doubling(int from, int to) { return to > from && from * LEVEL_STEP >= SHADOWS ? BRIGHTER : DARKER; }
 
 /* Where no flat patch is this bright, texture remains: noise grows only so fast with brightness. The darkest and
- * the brightest level, where there is no room for noise on one side, say nothing of the others. In/out: by, as above */
-static void bound_by_neighbours(double by[GRAIN_LEVELS], const struct grain *g, int color)
+ * the brightest level, where there is no room for noise on one side, say nothing of the others. */
+static void bound_by_neighbours(struct grain *g)
 {
-    double bounded[GRAIN_LEVELS];
+    double variance[GRAIN_LEVELS];
+    for (int i = 0; i < GRAIN_LEVELS; i++) variance[i] = g->covariance[i][0][0];
     for (int i = 0; i < GRAIN_LEVELS; i++) {
-        double variance = g->covariance[i][color][color] * by[i], most = variance;
+        double most = variance[i];
         for (int j = 1; j < GRAIN_LEVELS - 1; j++)
             if (g->seen[j])
-                most = fmin(most, fmax(g->covariance[j][color][color] * by[j], 0.02) * exp2(2 * abs(i - j) * LEVEL_STEP / doubling(j, i)));
-        bounded[i] = most < variance ? by[i] * most / variance : by[i];
+                most = fmin(most, fmax(variance[j], 0.02) * exp2(2 * abs(i - j) * LEVEL_STEP / doubling(j, i)));
+        for (int k = 0; k < 9 && most < variance[i]; k++) g->covariance[i][k / 3][k % 3] *= most / variance[i];
     }
-    memcpy(by, bounded, sizeof bounded);
-}
-
-/* What is left of what was measured. */
-static void keep_noise(struct grain *g, const struct sums sums[GRAIN_LEVELS])
-{
-    double by[3][GRAIN_LEVELS];
-    for (int c = 0; c < 3; c++) {
-        without_texture(by[c], g, sums, c);
-        bound_by_neighbours(by[c], g, c);
-    }
-    for (int i = 0; i < GRAIN_LEVELS; i++) scale_level(g->covariance[i], (double[3]){ by[0][i], by[1][i], by[2][i] });
 }
 
 /* Levels that the photograph does not have: between those that it has. */
@@ -258,21 +241,28 @@ bool grain_measure(struct grain *grain, const struct image *rgb, const struct fl
 {
     struct grain g = { .patches = 0 };
     struct sums sums[GRAIN_LEVELS];
+    const struct flat_patch **sorted = malloc((patches->count + 1) * sizeof *sorted);
     struct half *halves = malloc((2 * patches->count + 1) * sizeof *halves);
-    if (!halves) return error_set(err, ERR_MEMORY, "no memory for the grain of a photograph");
-    for (int level = 0; level < GRAIN_LEVELS; level++) {
-        measure_level(&sums[level], rgb, patches, level, halves);
+    bool ok = (sorted && halves) || error_set(err, ERR_MEMORY, "no memory for the grain of a photograph");
+    for (int level = 0; ok && level < GRAIN_LEVELS; level++) {
+        size_t n = 0;
+        for (size_t i = 0; i < patches->count; i++)
+            if (level_of(&patches->patch[i]) == level) sorted[n++] = &patches->patch[i];
+        qsort(sorted, n, sizeof *sorted, by_variance);
+        measure_level(&sums[level], rgb, sorted, n, halves);
         g.seen[level] = sums[level].patches > 0;
         g.patches += sums[level].patches;
         if (g.seen[level]) finish_level(g.covariance[level], &sums[level]);
     }
     free(halves);
+    free(sorted);
     if (g.patches > 0) {
-        keep_noise(&g, sums);
+        without_texture(&g, sums);
+        bound_by_neighbours(&g);
         fill_levels(&g);
     }
-    *grain = g;
-    return true;
+    if (ok) *grain = g;
+    return ok;
 }
 
 struct grain grain_white(double sigma)

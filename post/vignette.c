@@ -14,7 +14,7 @@ static bool slope_of(double *slope, double *r, int *quarter, const struct flat_p
     double x = p->x + FLAT_SIDE_PX / 2.0 - width_px / 2.0, y = p->y + FLAT_SIDE_PX / 2.0 - height_px / 2.0, away = hypot(x, y);
     float level = (float)p->level / 255, light = linear_from_srgb(level);
     double change = (double)(linear_from_srgb(level + 0.002f) - linear_from_srgb(level - 0.002f)) / (0.004 * 255) / (double)light;
-    if (away < 0.1 * half || (p->variance[0] + p->variance[1]) / 2 > VARIANCE_MAX || hypot(p->right, p->down) * change > SLOPE_MAX) return false;
+    if (away < 0.1 * half || flat_patch_variance(p) > VARIANCE_MAX || hypot(p->right, p->down) * change > SLOPE_MAX) return false;
     *slope = change * (p->right * x + p->down * y) / away * half;
     *r = away / half;
     bool sideways = fabs(x) * height_px > fabs(y) * width_px;
