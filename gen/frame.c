@@ -238,20 +238,41 @@ static bool write_background(struct frame *f, struct error *err)
     return ok;
 }
 
+static char *passes_key_path(const char *folder)
+{
+    return string_format("%s/passes.key", folder);
+}
+
+bool frame_has_passes_key(const char *folder)
+{
+    char *path = passes_key_path(folder);
+    bool has = path && file_exists(path);
+    free(path);
+    return has;
+}
+
+static bool write_passes_key(const struct frame *f, struct error *err)
+{
+    char *path = passes_key_path(f->folder);
+    bool ok = path ? file_write_if_changed(path, f->keys->passes, strlen(f->keys->passes), err) : error_set(err, ERR_MEMORY, "no memory for a path");
+    free(path);
+    return ok;
+}
+
 bool frame_make(struct frame_result *result, const struct frame_context *context, const struct scene_shot *shot,
-                const struct camera *camera, const char *folder, const char *photograph, const char *key,
+                const struct camera *camera, const char *folder, const char *photograph, const struct frame_keys *keys,
                 struct error *err)
 {
     const struct scene *s = context->scene;
     struct frame f = { .context = context, .scene = s, .stage = context->stage, .shot = shot, .camera = camera,
-                       .name = result->name, .folder = folder, .photograph = photograph, .key = key };
+                       .name = result->name, .folder = folder, .photograph = photograph, .keys = keys };
     bool ok = set_stage(&f, err) && trace(&f, err) && (photograph[0] || write_background(&f, err));
     if (ok) {
         struct rect window = changed_window(&f);
         result->empty = window.x1 <= window.x0 || window.y1 <= window.y0;
         if (!result->empty)
             ok = (view_cover(&result->view, camera, window, pass_settings(s->quality).fineness, err) || stage_fail(s, shot->source, err)) &&
-                 frame_expose(&f, err) && frame_write_passes(&f, &result->view, err);
+                 frame_expose(&f, err) && frame_write_passes(&f, &result->view, err) && write_passes_key(&f, err);
     }
     ok = ok && frame_write_manifest(&f, result, err);
     frame_release(&f);

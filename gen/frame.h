@@ -37,13 +37,19 @@ struct frame_result {
 /* The number of its shot, six digits. */
 void frame_name(char name[FRAME_NAME_SIZE], const struct scene_shot *shot);
 
-/* Write a frame's folder.
+/* Hashes of all that a frame depends on, and of what its passes may depend on. */
+struct frame_keys { char all[17], passes[17]; };
+
+/* Whether a frame's folder says what its passes were rendered from. */
+bool frame_has_passes_key(const char *folder);
+
+/* Write a frame's folder. Its passes.key is left alone where the passes are to stay as they are.
  * In:  result->name; photograph as the manifest is to name it ("" for a new view); camera at the
- *      photograph's size; key: hash of all that the frame depends on
+ *      photograph's size
  * Out: result; its view is empty in an empty frame
  * Err: ERR_INPUT at the scene, ERR_IO, ERR_MEMORY */
 bool frame_make(struct frame_result *result, const struct frame_context *context, const struct scene_shot *shot,
-                const struct camera *camera, const char *folder, const char *photograph, const char *key,
+                const struct camera *camera, const char *folder, const char *photograph, const struct frame_keys *keys,
                 struct error *err);
 
 #endif

@@ -14,7 +14,8 @@ struct frame {
     const struct stage *stage;
     const struct scene_shot *shot;
     const struct camera *camera;
-    const char *name, *folder, *photograph, *key;
+    const char *name, *folder, *photograph;
+    const struct frame_keys *keys;
     struct moment moment;
     struct receiver *receivers;     /* (moment.n) */
     struct surroundings around;     /* with a static mesh */

@@ -45,7 +45,7 @@ bool frame_write_manifest(const struct frame *f, const struct frame_result *resu
     memcpy(m.exposure_median, f->exposure.median, sizeof m.exposure_median);
     snprintf(m.frame, sizeof m.frame, "%s", result->name);
     snprintf(m.photograph, sizeof m.photograph, "%s", f->photograph);
-    snprintf(m.key, sizeof m.key, "%s", f->key);
+    snprintf(m.key, sizeof m.key, "%s", f->keys->all);
     if (!absolute(m.semantic, f->shot->semantic, err) || !absolute(m.depth, f->shot->depth, err)) return false;
     snprintf(m.transfer, sizeof m.transfer, "%s", transfers[s->transfer]);
     m.entities = calloc(f->moment.n + 1, sizeof *m.entities);

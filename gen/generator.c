@@ -33,6 +33,7 @@ struct generator {
     struct tracer *tracer;
     struct include_set includes;
     uint64_t input_hash;            /* of all that every frame depends on */
+    uint64_t rendered_hash;         /* the same without what matters in merging alone */
 };
 
 static char *photograph_path(const struct generator *g, size_t frame, struct error *err);
@@ -89,7 +90,7 @@ static uint64_t hash_settings(uint64_t hash, const struct generator *g)
     const struct scene *scene = g->scene;
     struct pass_settings settings = generator_pass_settings(g);
     hash = hash_bytes(hash, PACKAGE_VERSION, sizeof PACKAGE_VERSION);
-    hash = hash_bytes(hash, &scene->hash, sizeof scene->hash);
+    hash = hash_bytes(hash, &scene->rendered_hash, sizeof scene->rendered_hash);
     hash = hash_bytes(hash, &scene->quality, sizeof scene->quality);
     hash = hash_bytes(hash, &scene->seed, sizeof scene->seed);
     hash = hash_bytes(hash, g->sky_map, strlen(g->sky_map)); /* named after what is in it */
@@ -147,14 +148,15 @@ bool generator_create(struct generator **generator, const struct scene *scene, c
     bool ok = material_rules_read(&g->rules, rules, err) && open_video(g, err);
     if (ok && scene->sky == SKY_AUTO) ok = stage_create(&g->stage, g->scene, g->rules, err) && estimate_light(g, err);
     ok = ok && light_create(&g->light, g->scene, err) && sky_map_write(g->sky_map, out_folder, &g->light, err);
-    if (ok) g->input_hash = hash_settings(FILE_HASH_SEED, g);
-    ok = ok && file_hash(&g->input_hash, rules, err) && (g->stage || stage_create(&g->stage, g->scene, g->rules, err)) &&
+    if (ok) g->rendered_hash = hash_settings(FILE_HASH_SEED, g);
+    ok = ok && file_hash(&g->rendered_hash, rules, err) && (g->stage || stage_create(&g->stage, g->scene, g->rules, err)) &&
          warn_of_sun(g, err) && trace_models(g, err);
     if (!ok) {
         generator_destroy(g);
         return false;
     }
-    g->input_hash = hash_bytes(g->input_hash, &g->stage->hash, sizeof g->stage->hash);
+    g->rendered_hash = hash_bytes(g->rendered_hash, &g->stage->hash, sizeof g->stage->hash);
+    g->input_hash = hash_bytes(g->rendered_hash, &g->scene->hash, sizeof g->scene->hash);
     *generator = g;
     return true;
 }
@@ -295,27 +297,28 @@ static bool frame_camera(struct camera *camera, const struct generator *g, const
 
 /* --- frames --- */
 
-/* Everything that a frame's files depend on, as 16 hex digits. */
-static bool frame_key(char key[17], const struct generator *g, const struct scene_shot *shot, const char *photograph,
-                      struct error *err)
+static bool frame_keys(struct frame_keys *keys, const struct generator *g, const struct scene_shot *shot, const char *photograph,
+                       struct error *err)
 {
-    uint64_t hash = hash_bytes(g->input_hash, &shot->number, sizeof shot->number);
+    uint64_t hash = hash_bytes(g->rendered_hash, &shot->number, sizeof shot->number);
     char *path = path_from_folder(g->out_folder, photograph);
     bool ok = path ? !photograph[0] || hash_file_state(&hash, path, photograph, err)
                    : error_set(err, ERR_MEMORY, "no memory for a path");
     ok = ok && (!shot->semantic || hash_file_state(&hash, shot->semantic, shot->semantic, err)) &&
          (!shot->depth || hash_file_state(&hash, shot->depth, shot->depth, err));
     free(path);
-    if (ok) snprintf(key, 17, "%016llx", (unsigned long long)hash);
+    snprintf(keys->passes, sizeof keys->passes, "%016llx", (unsigned long long)hash);
+    hash = hash_bytes(hash, &g->input_hash, sizeof g->input_hash);
+    snprintf(keys->all, sizeof keys->all, "%016llx", (unsigned long long)hash);
     return ok;
 }
 
-static bool already_there(struct frame_result *result, const char *manifest_path, const char *key)
+static bool already_there(struct frame_result *result, const char *folder, const char *manifest_path, const char *key)
 {
     struct manifest old;
     struct error ignored = ERROR_NONE;
     if (!file_exists(manifest_path) || !manifest_read(&old, manifest_path, &ignored)) return false;
-    bool same = !strcmp(old.key, key);
+    bool same = !strcmp(old.key, key) && (old.empty || frame_has_passes_key(folder));
     if (same) {
         result->kept = true;
         result->empty = old.empty;
@@ -334,19 +337,20 @@ bool generator_frame(struct frame_result *result, struct generator *g, size_t fr
     generator_frame_name(made.name, g, frame);
     char *folder = string_format("%s/frames/%s", g->out_folder, made.name);
     char *manifest = folder ? string_format("%s/frame.json", folder) : NULL;
-    char *photograph = photograph_path(g, frame, err), key[17];
+    char *photograph = photograph_path(g, frame, err);
+    struct frame_keys keys;
     bool ok = false;
     if (!folder || !manifest || !photograph) {
         error_set(err, ERR_MEMORY, "no memory for a path");
         goto out;
     }
-    if (!folder_make(folder, err) || !frame_key(key, g, shot, photograph, err)) goto out;
-    ok = already_there(&made, manifest, key);
+    if (!folder_make(folder, err) || !frame_keys(&keys, g, shot, photograph, err)) goto out;
+    ok = already_there(&made, folder, manifest, keys.all);
     if (!ok) {
         /* Stopped halfway, the files are of two inputs: no manifest may then speak for them. */
         unlink(manifest);
         ok = frame_camera(&camera, g, shot, err) &&
-             frame_make(&made, &context, shot, &camera, folder, photograph, key, err);
+             frame_make(&made, &context, shot, &camera, folder, photograph, &keys, err);
     }
     if (ok) *result = made;
 out:

@@ -93,7 +93,7 @@ gen_libgen_a_SOURCES = \
   %D%/scene/scene_read.h \
   %D%/scene/scene_shots.c \
   %D%/scene/scene_traffic.c \
-  %D%/scene/schema.c %D%/scene/schema.h \
+  %D%/scene/schema.c %D%/scene/schema.h %D%/scene/schema_hash.c \
   %D%/scene/schema_words.c %D%/scene/schema_words.h \
   %D%/scene/yaml.c %D%/scene/yaml.h \
   %D%/shutter.c %D%/shutter.h \

@@ -26,6 +26,29 @@ run "$staffage" run street.yaml -o one
 check "a second run: nothing to do" says '^nothing to do'
 check "a second run: no file is touched" is "$(stamps one)" "$before"
 
+# Another way to merge needs no other passes.
+of_passes() { stamps "$1" | grep -E '/(object|plane|shadow)\.exr '; }
+run "$staffage" run street.yaml -o merged -j 2
+before=$(of_passes merged/frames) picture=$(cat merged/rgb/000000.png | md5sum) labels=$(md5sum <merged/labels/000000.json)
+cp street.yaml kept.yaml
+echo 'transfer: {method: alpha} # as in the papers' >>street.yaml
+run "$staffage" run street.yaml -o merged -j 2
+check "another transfer: no pass is rendered again" is "$(of_passes merged/frames)" "$before"
+check "another transfer: another picture" test "$(cat merged/rgb/000000.png | md5sum)" != "$picture"
+check "another transfer: the same labels" is "$(md5sum <merged/labels/000000.json)" "$labels"
+cp kept.yaml street.yaml
+echo 'lens: {grain: 4}' >>street.yaml
+run "$staffage" run street.yaml -o merged -j 2
+check "other grain: no pass is rendered again" is "$(of_passes merged/frames)" "$before"
+sed 's/height_m: 0/height_m: 0, albedo: 0.3/' kept.yaml >street.yaml
+run "$staffage" run street.yaml -o merged -j 2
+check "other ground: its passes are rendered again" test $status = 0 -a -z "$(of_passes merged/frames | grep -F -x "$before")"
+cp kept.yaml street.yaml
+run "$staffage" run street.yaml -o merged -j 2
+( cd one && find rgb labels frames/*/object.exr frames/*/shadow.exr -type f ) >names
+back() { same_files one merged <names; }
+check "back to the first scene: its passes, pictures and labels" back
+
 "$staffage" run street.yaml -o killed -j 2 >log 2>&1 &
 pid=$!
 until [ "$(passes killed)" -ge 2 ] || ! kill -0 $pid 2>/dev/null; do sleep 0.05; done

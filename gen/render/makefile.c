@@ -31,7 +31,7 @@ static const char rules[] =
     "\n"
     "# pass FRAME PASS\n"
     "define pass\n"
-    "frames/$(1)/$(2).exr: frames/$(1)/$(2).pov frames/$(1)/frame.json $(TEMPLATES)\n"
+    "frames/$(1)/$(2).exr: frames/$(1)/$(2).pov frames/$(1)/passes.key $(TEMPLATES) | frames/$(1)/frame.json\n"
     "\t@$$(STAFFAGE_POVRAY) frames/$(1)/$(2) $($(2)_$(1))\n"
     "\t@echo staffage: pass $(1) $(2)\n"
     "endef\n"

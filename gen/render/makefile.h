@@ -4,7 +4,7 @@
  *
  * Targets: `render` the passes; `post` (= `all`) the pictures and labels, and the passes that
  * these still need; `frame-NNNNNN` the same of one frame, by a make of its own. A frame's passes
- * are made again when one of its .pov files, its frame.json or a template is newer; its pictures
+ * are made again when one of its .pov files, its passes.key or a template is newer; its pictures
  * and labels when a pass or frame.json is, or when one of them is missing.
  *
  * Programs come from the environment: STAFFAGE_POVRAY and STAFFAGE_POST, by default

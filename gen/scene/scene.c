@@ -143,6 +143,7 @@ bool scene_read(struct scene **out, const char *path, const char *const *model_f
     if (!yaml_parse(&root, data, size, path, err) || !check_version(&r, root) ||
         !schema_check(&scene_schema, root, path, err) || !schema_fill(&scene_schema, root, err))
         goto out;
+    scene->rendered_hash = schema_rendered_hash(&scene_schema, root);
     r.root = root;
     read_place(&r, root);
     read_lens_effects(&r, yaml_get(root, "lens"), yaml_get(root, "weather"));

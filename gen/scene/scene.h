@@ -148,6 +148,7 @@ struct scene_mark { struct vec2 lit_px, shade_px; size_t shot; struct source sou
 struct scene {
     char *path;                /* of the scene file */
     uint64_t hash;             /* of the scene file's bytes */
+    uint64_t rendered_hash;    /* of what it says that the passes may depend on */
 
     char *video;               /* resolved path, or NULL */
     struct source video_source;

@@ -8,6 +8,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 /* What a value may be; several bits: any of them. */
 enum schema_type {
@@ -51,6 +52,7 @@ struct schema_key {
     int count_min, count_max;      /* of lists (0 max: any), and of the bytes of a text */
     int columns;
     const char *(*choice)(int i);  /* NULL from the end on */
+    bool merging;                  /* it and the keys below it matter when passes are merged, not when they are rendered */
 };
 
 struct schema { const struct schema_key *keys; size_t count; };
@@ -62,6 +64,9 @@ bool schema_check(const struct schema *schema, const struct yaml_node *root, con
 
 /* Put the presets of a checked tree's missing keys in, marked is_default. */
 bool schema_fill(const struct schema *schema, struct yaml_node *root, struct error *err);
+
+/* Of all that a checked tree says but the keys for merging; comments and the order of lines do not count. */
+uint64_t schema_rendered_hash(const struct schema *schema, const struct yaml_node *root);
 
 /* "path\ttype\tunit\tdefault\n" for each key. The caller frees; NULL only when memory ends. */
 char *schema_text(const struct schema *schema);
