@@ -1,6 +1,7 @@
 #include "gen/frame_impl.h"
 
 #include "gen/render/place_sdl.h"
+#include "gen/trace/sunlit_ground.h"
 #include "gen/world/shading.h"
 #include "lib/file.h"
 
@@ -79,6 +80,12 @@ static bool light_ground(struct shaded_ground *ground, const struct sky_sight *s
     return shaded_ground_shade(ground, sight, detail, err);
 }
 
+static bool find_sunlit(struct shaded_ground *ground, const struct passes *p, const struct static_cut *shades, struct error *err)
+{
+    struct sunlit_input in = { p->light->sun_direction, p->entities, p->entity_count, shades, &p->surroundings->sun_share };
+    return !p->light->has_sun || sunlit_ground_find(ground, &in, err);
+}
+
 bool frame_write_passes(struct frame *f, const struct view *view, struct error *err)
 {
     const struct frame_context *c = f->context;
@@ -114,7 +121,8 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
                          : shaded_ground_of_plane(&ground, &f->scene->ground, receivers, n, err)) &&
          open_sight(&past_entities, NULL, NULL, f, err) && frame_write_surroundings(&surroundings, f, past_entities, err) &&
          open_sight(&sight, &around, &surroundings, f, err) &&
-         (!f->stage->mesh || write_shades(&files, &shades, f, &surroundings.sun_share, err)) && light_ground(&ground, sight, f, err) && passes_write(f->folder, &passes, err);
+         (!f->stage->mesh || write_shades(&files, &shades, f, &surroundings.sun_share, err)) && light_ground(&ground, sight, f, err) &&
+         find_sunlit(&ground, &passes, &shades, err) && passes_write(f->folder, &passes, err);
     sky_sight_destroy(past_entities);
     sky_sight_destroy(sight);
     frame_release_surroundings(&surroundings);

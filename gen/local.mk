@@ -119,6 +119,7 @@ gen_libgen_a_SOURCES = \
   %D%/trace/share.c %D%/trace/share.h \
   %D%/trace/sky_rays.c %D%/trace/sky_rays.h \
   %D%/trace/sky_sight.c %D%/trace/sky_sight.h \
+  %D%/trace/sunlit_ground.c %D%/trace/sunlit_ground.h \
   %D%/trace/trace.c %D%/trace/trace.h \
   %D%/world/banded.c %D%/world/banded.h \
   %D%/world/cut_rays.c %D%/world/cut_rays.h \
@@ -143,6 +144,7 @@ gen_libgen_a_SOURCES = \
   %D%/world/static_mesh_rays.c \
   %D%/world/static_mesh_write.c \
   %D%/world/strip.c %D%/world/strip.h \
+  %D%/world/sun_blockers.c %D%/world/sun_blockers.h \
   %D%/world/surface.c %D%/world/surface.h \
   %D%/world/surroundings.c %D%/world/surroundings.h
 GEN_LIBS = gen/libgen.a $(LIB_LIBS) $(TINYGLTF_LIBS) $(ASSIMP_LIBS) $(EMBREE_LIBS) $(ERFA_LIBS) $(YAML_LIBS) $(READOSM_LIBS)

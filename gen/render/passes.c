@@ -87,14 +87,10 @@ static void write_entities(struct sdl *sdl, const struct passes *p, bool shapes_
     sdl_end(sdl);
 }
 
-/* The receivers in both passes are one mesh, and the sky's light on it is one function of its uv. */
-static void write_receivers(struct sdl *sdl, const struct passes *p, bool entities)
+static void write_ground_mesh(struct sdl *sdl, const char *name, const struct shaded_ground *g, const struct sky_scale *scale,
+                              const struct passes *p, bool entities)
 {
-    const struct shaded_ground *g = p->receivers;
-    struct sky_scale scale = sky_scale(g, p->light);
-    sdl_declare_color(sdl, "Sky_Most", scale.most);
-    sdl_declare_color(sdl, "Sky_Tint", scale.tint);
-    sdl_declare(sdl, "Receivers");
+    sdl_declare(sdl, name);
     if (!g->triangles) {
         mesh_sdl_nowhere(sdl);
         return;
@@ -105,7 +101,7 @@ static void write_receivers(struct sdl *sdl, const struct passes *p, bool entiti
     sdl_begin(sdl, "uv_vectors");
     sdl_number(sdl, (double)g->vertices);
     for (size_t i = 0; i < g->vertices; i++) {
-        struct vec2 uv = sky_uv(&scale, entities ? g->sky[i].with : g->sky[i].without);
+        struct vec2 uv = sky_uv(scale, entities ? g->sky[i].with : g->sky[i].without);
         sdl_comma(sdl);
         sdl_vector2(sdl, uv.x, uv.y);
         if (i % 8 == 7) sdl_newline(sdl);
@@ -113,6 +109,26 @@ static void write_receivers(struct sdl *sdl, const struct passes *p, bool entiti
     sdl_end(sdl);
     mesh_sdl_faces(sdl, g->triangle, g->triangles);
     sdl_end(sdl);
+}
+
+/* The receivers are the same triangles in both passes, but in one mesh or another, and the sky's light on them is one function of their uv. */
+static bool write_receivers(struct sdl *sdl, const struct passes *p, bool entities, struct error *err)
+{
+    const struct shaded_ground *g = p->receivers;
+    struct sky_scale scale = sky_scale(g, p->light);
+    bool ok = true, *in_sun = calloc(g->triangles + 1, sizeof *in_sun);
+    if (!in_sun) return error_set(err, ERR_MEMORY, "no memory for the ground");
+    for (size_t i = 0; g->sunlit && i < g->triangles; i++) in_sun[i] = entities ? g->sunlit[i].with : g->sunlit[i].without;
+    sdl_declare_color(sdl, "Sky_Most", scale.most);
+    sdl_declare_color(sdl, "Sky_Tint", scale.tint);
+    for (int sunlit = 0; ok && sunlit < 2; sunlit++) {
+        struct shaded_ground part = { 0 };
+        ok = shaded_ground_pick(&part, g, in_sun, sunlit, err);
+        if (ok && (!sunlit || part.triangles)) write_ground_mesh(sdl, sunlit ? "Receivers_In_Sun" : "Receivers", &part, &scale, p, entities);
+        shaded_ground_release(&part);
+    }
+    free(in_sun);
+    return ok;
 }
 
 static void write_ground(struct sdl *sdl, const struct passes *p, bool object)
@@ -202,15 +218,15 @@ static bool write_pass(const char *frame_folder, const char *name, const struct 
     write_light(&sdl, p, !receivers);
     write_shade(&sdl, p);
     write_ground(&sdl, p, !receivers);
-    if (receivers) write_receivers(&sdl, p, entities);
-    else write_surroundings(&sdl, p);
+    bool ok = !receivers || write_receivers(&sdl, p, entities, err);
+    if (!receivers) write_surroundings(&sdl, p);
     /* The sky's shade is known: entities shade from the sun, and are mirrored. */
     if (entities) {
         if (receivers) sdl_declare_number(&sdl, "Entities_Matter", p->light->has_sun || mirrors);
         if (!receivers || p->light->has_sun || mirrors) write_entities(&sdl, p, receivers && !mirrors);
     }
     char *include = string_format("pass_%s.inc", name), *path = string_format("%s/%s.pov", frame_folder, name);
-    bool ok = (include && path) || error_set(err, ERR_MEMORY, "no memory for a path");
+    ok = ok && ((include && path) || error_set(err, ERR_MEMORY, "no memory for a path"));
     if (ok) {
         sdl_include(&sdl, include);
         ok = sdl_write(&sdl, path, err);

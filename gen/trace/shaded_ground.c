@@ -54,7 +54,37 @@ void shaded_ground_release(struct shaded_ground *g)
     free(g->sky);
     free(g->hidden);
     free(g->triangle);
+    free(g->sunlit);
     *g = (struct shaded_ground){ 0 };
+}
+
+bool shaded_ground_pick(struct shaded_ground *part, const struct shaded_ground *g, const bool *taken, bool wanted, struct error *err)
+{
+    struct shaded_ground picked = { 0 };
+    uint32_t *number = malloc((g->vertices + 1) * sizeof *number);
+    bool ok = number || error_set(err, ERR_MEMORY, "no memory for the ground");
+    ok = ok && grow_vertices(&picked, g->vertices, err) && grow_triangles(&picked, g->triangles, err);
+    for (size_t i = 0; ok && i < g->vertices; i++) number[i] = UINT32_MAX;
+    for (size_t i = 0; ok && i < g->triangles; i++) {
+        if (taken[i] != wanted) continue;
+        for (int k = 0; k < 3; k++) {
+            uint32_t from = g->triangle[i][k];
+            if (number[from] == UINT32_MAX) {
+                size_t to = picked.vertices++;
+                number[from] = (uint32_t)to;
+                picked.position_m[to] = g->position_m[from];
+                picked.normal[to] = g->normal[from];
+                picked.sky[to] = g->sky[from];
+                picked.hidden[to] = g->hidden[from];
+            }
+            picked.triangle[picked.triangles][k] = number[from];
+        }
+        picked.triangles++;
+    }
+    free(number);
+    if (ok) *part = picked;
+    else shaded_ground_release(&picked);
+    return ok;
 }
 
 /* --- a number for each pair of numbers --- */

@@ -13,11 +13,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Nothing can keep the sun from any part of it: but for the entities, with them. */
+struct sunlit { bool without, with; };
+
 struct shaded_ground {
     struct vec3 *position_m, *normal; /* (vertices) world */
     struct sky_seen *sky;             /* (vertices) after shaded_ground_shade */
     bool *hidden;                     /* (vertices) the same: by an entity, from the eye */
     uint32_t (*triangle)[3];          /* (triangles) */
+    struct sunlit *sunlit;            /* (triangles); NULL: not looked at */
     size_t vertices, triangles;
 };
 
@@ -28,6 +32,8 @@ bool shaded_ground_of_plane(struct shaded_ground *ground, const struct plane *pl
 /* A cut of the static mesh, with smooth normals. */
 bool shaded_ground_of_cut(struct shaded_ground *ground, const struct static_cut *cut, struct error *err);
 void shaded_ground_release(struct shaded_ground *ground);
+/* The triangles that are taken, or the others, lit as they are. In: taken (triangles). Out: *part, initialized here. Err: ERR_MEMORY */
+bool shaded_ground_pick(struct shaded_ground *part, const struct shaded_ground *ground, const bool *taken, bool wanted, struct error *err);
 
 /* Light the vertices, and halve edges between whose ends the entities' shade changes, if they can be seen, down to
  * fine_px as seen from an eye whose pixels are pixel_rad wide.

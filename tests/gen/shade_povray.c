@@ -2,6 +2,7 @@
  * map in a place that has something above the wall where nothing is. */
 #include "gen/render/passes.h"
 #include "tests/gen/povray.h"
+#include "gen/trace/sunlit_ground.h"
 #include "tests/gen/shade.h"
 #include "tests/gen/solid.h"
 #include "tests/gen/view_above.h"
@@ -130,6 +131,34 @@ static void check_in_place(const char *pass, const struct image *truth, const st
     image_release(&with);
 }
 
+/* The ground that nothing keeps the sun from is rendered without asking. */
+static void check_sunlit(struct shaded_ground *ground, const struct passes *p, const char *folder)
+{
+    struct error err = ERROR_NONE;
+    struct image asked[PASSES] = { 0 }, told = { 0 };
+    size_t without = 0, with = 0;
+    bool ok = true;
+    for (int i = 1; i < PASSES; i++) ok = ok && render(&asked[i], pass_names[i], NULL);
+    struct sunlit_input in = { p->light->sun_direction, p->entities, p->entity_count, NULL, &p->surroundings->sun_share };
+    ok = OK(ok && sunlit_ground_find(ground, &in, &err) && passes_write(folder, p, &err), "sunlit ground %s", err.text);
+    for (size_t i = 0; ok && i < ground->triangles; i++) {
+        without += ground->sunlit[i].without;
+        with += ground->sunlit[i].with;
+    }
+    OK(0 < with && with < without && without < ground->triangles, "of %zu triangles %zu, and past the box %zu, are sunlit", ground->triangles, without, with);
+    for (int i = 1; ok && i < PASSES; i++) {
+        double most = 0;
+        if (!render(&told, pass_names[i], NULL)) break;
+        for (size_t k = 0; k < image_size(&told) / sizeof(float); k++)
+            most = fmax(most, fabs((double)(((float *)told.data)[k] - ((float *)asked[i].data)[k])));
+        NEAR(most, 0, 1e-6, "%s pass: the same pixels", pass_names[i]);
+        image_release(&told);
+    }
+    for (int i = 1; i < PASSES; i++) image_release(&asked[i]);
+    free(ground->sunlit);
+    ground->sunlit = NULL;
+}
+
 int main(void)
 {
     struct error err = ERROR_NONE;
@@ -166,6 +195,7 @@ int main(void)
     struct image truth[PASSES] = { 0 }, open[PASSES] = { 0 }, more = { 0 };
     ok = OK(ok && passes_write(folder, &p, &err), "passes %s", err.text);
     for (int i = 0; ok && i < PASSES; i++) ok = test_pass(&truth[i], &open[i], pass_names[i], wall);
+    if (ok) check_sunlit(&ground, &p, folder);
     ok = ok && render(&more, "plane", both);
     if (ok && write_in_place(&p, &around, folder, above, true))
         for (int i = 0; i < PASSES; i++) check_in_place(pass_names[i], &truth[i], &open[i], "where the map tells, what the place has casts nothing");
