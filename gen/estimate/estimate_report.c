@@ -69,6 +69,15 @@ static char *check_text(const struct light_estimate *e)
                          c->elevation_off_deg < 0 ? "lower" : "higher", c->at_limit ? " or more" : "", 100 * c->agree, c->edges, 100 * c->agree_there);
 }
 
+/* What is white and in the open is seldom burnt out by more: in its photographs a camera keeps most of what there is. */
+static char *albedo_text(double exposure)
+{
+    static const double doubtful = 2;
+    if (exposure < doubtful) return string_format("%s", "");
+    return string_format("light: warning: what is white would be %.1f times as bright in the open as the photograph can show, and so will be what is "
+                         "put in: ground.albedo may be too low (concrete has 0.25 to 0.35, worn asphalt 0.12 to 0.2)\n", exposure);
+}
+
 static char *exposure_text(const struct light_estimate *e, const double radiance[3])
 {
     if (!(e->lit[0] > 0)) return string_format("%s", "");
@@ -77,8 +86,9 @@ static char *exposure_text(const struct light_estimate *e, const double radiance
         k[c] = exposure_of(e, radiance, c);
         sigma[c] = k[c] * e->lit_sigma[c] / e->lit[c];
     }
-    char *exposure = triple_text(k, sigma);
-    char *text = exposure ? string_format("light: exposure %s, if ground.albedo is right\n", exposure) : NULL;
+    char *exposure = triple_text(k, sigma), *doubt = albedo_text(luminance_of(k));
+    char *text = exposure && doubt ? string_format("light: exposure %s, if ground.albedo is right\n%s", exposure, doubt) : NULL;
+    free(doubt);
     free(exposure);
     return text;
 }

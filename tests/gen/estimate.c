@@ -40,6 +40,15 @@ static void is_near(const struct light_estimate *e, const double want[3], double
     for (int c = 0; c < 3; c++) NEAR(e->shade.ratio[c], want[c], within * want[c], "%s: shade to lit, %c", what, "RGB"[c]);
 }
 
+/* In: albedo  that the ground is told to have, of a photograph of 0.3 to 0.35 */
+static void check_albedo(const struct light_estimate *e, double albedo, bool doubted)
+{
+    const double radiance[3] = { albedo, albedo, albedo };
+    char *text = light_estimate_text(e, radiance);
+    OK(text && !strstr(text, "ground.albedo may be too low") == !doubted, "an albedo of %.2f is%s doubted", albedo, doubted ? "" : " not");
+    free(text);
+}
+
 static void on_a_plane(void)
 {
     struct scene_camera camera;
@@ -52,6 +61,8 @@ static void on_a_plane(void)
     OK(e.clear && e.from == SHADE_FROM_EDGES && e.certainty > 0.8, "clear, sure to %.2f", e.certainty);
     for (int c = 0; c < 3; c++) NEAR(e.lit[c], 1.6 * 0.2 * m.balance[c], 0.02 * e.lit[c], "lit asphalt, %c", "RGB"[c]);
     OK(!memcmp(e.shade.ratio, again.shade.ratio, sizeof e.shade.ratio), "the same again");
+    check_albedo(&e, 0.25, false);
+    check_albedo(&e, 0.1, true);
 
     light_estimate_apply(&scene, &e);
     struct error err = ERROR_NONE;
