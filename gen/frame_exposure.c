@@ -30,16 +30,14 @@ static bool ground_radiance(double rgb[3], const struct frame *f, const struct v
     const struct scene *s = f->scene;
     if (!ground_irradiance(rgb, f, q_px, n, err)) return false;
     for (int c = 0; c < 3; c++) rgb[c] *= s->ground_albedo[c];
-    if (s->ground_reflection <= 0 || s->exposure_of_roads) return true;
+    if (s->wet.reflection <= 0 || s->exposure_of_roads) return true;
     /* A wet ground mirrors the sky as well. */
     struct error ignored = ERROR_NONE;
     struct vec3 p;
     if (!ground_from_pixel(&p, &s->ground, f->camera, f->shot->world_from_camera, at_px, &ignored)) return true;
-    struct vec3 d = vec3_unit(vec3_sub(p, f->shot->world_from_camera.translation));
-    double cosine = -vec3_dot(d, s->ground.normal), sky[3];
-    double share = s->ground_reflection + (1 - s->ground_reflection) * pow(1 - cosine, 5);
-    light_sky_radiance(sky, f->context->light, vec3_add(d, vec3_scale(s->ground.normal, 2 * cosine)));
-    for (int c = 0; c < 3; c++) rgb[c] += share * sky[c];
+    double sky[3];
+    wet_sky(sky, &s->wet, f->context->light, s->ground.normal, vec3_unit(vec3_sub(f->shot->world_from_camera.translation, p)), WET_RAYS_MAX);
+    for (int c = 0; c < 3; c++) rgb[c] += sky[c];
     return true;
 }
 

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Paths of a frame's place, relative to the output folder. */
 struct place_files { char place[64], shades[64]; };
@@ -76,7 +77,8 @@ static bool open_sight(struct sky_sight **sight, const struct static_cut *around
 static bool light_ground(struct shaded_ground *ground, const struct sky_sight *sight, const struct frame *f, struct error *err)
 {
     double fine_px = pass_settings(f->scene->quality).fine_px;
-    struct shaded_ground_detail detail = { f->shot->world_from_camera.translation, 1 / camera_intrinsics(f->camera).fx_px, fine_px };
+    struct shaded_ground_detail detail = { f->shot->world_from_camera.translation, 1 / camera_intrinsics(f->camera).fx_px, fine_px, f->scene->wet, { 0 } };
+    memcpy(detail.albedo, f->scene->ground_albedo, sizeof detail.albedo);
     return shaded_ground_shade(ground, sight, detail, err);
 }
 

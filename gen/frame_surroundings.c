@@ -119,7 +119,7 @@ static bool write_ground(struct pass_surroundings *out, double color_gain[3], co
     }
     struct orthophoto_input in = {
         .seen = seen, .light = f->context->light, .ground = f->stage->mesh ? NULL : &f->scene->ground,
-        .sun = f->stage->mesh ? NULL : &out->sun_share, .ground_reflection = f->scene->ground_reflection, .place = f->stage->mesh, .place_depth = &f->labels.place_depth,
+        .sun = f->stage->mesh ? NULL : &out->sun_share, .wet = f->scene->wet, .place = f->stage->mesh, .place_depth = &f->labels.place_depth,
         .entities = entities,
     };
     memcpy(in.ground_albedo, f->scene->ground_albedo, sizeof in.ground_albedo);

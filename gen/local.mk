@@ -40,6 +40,7 @@ gen_libgen_a_SOURCES = \
   %D%/light/standing.c %D%/light/standing.h \
   %D%/light/sun.c %D%/light/sun.h \
   %D%/light/unhidden.c %D%/light/unhidden.h \
+  %D%/light/wet.c %D%/light/wet.h \
   %D%/model/affine.c %D%/model/affine.h \
   %D%/model/catalogue.c %D%/model/catalogue.h \
   %D%/model/catalogue_folders.c \

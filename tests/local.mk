@@ -357,6 +357,11 @@ tests_gen_shaded_ground_test_SOURCES = %D%/gen/shaded_ground.c %D%/gen/solid.h %
 nodist_EXTRA_tests_gen_shaded_ground_test_SOURCES = dummy.cxx
 tests_gen_shaded_ground_test_LDADD = $(GEN_LIBS)
 
+check_PROGRAMS += tests/gen/wet.test
+tests_gen_wet_test_SOURCES = %D%/gen/wet.c %D%/tap.h
+nodist_EXTRA_tests_gen_wet_test_SOURCES = dummy.cxx
+tests_gen_wet_test_LDADD = $(GEN_LIBS)
+
 check_PROGRAMS += tests/gen/sun_blockers.test
 tests_gen_sun_blockers_test_SOURCES = %D%/gen/sun_blockers.c %D%/tap.h
 nodist_EXTRA_tests_gen_sun_blockers_test_SOURCES = dummy.cxx

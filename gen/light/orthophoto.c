@@ -47,15 +47,15 @@ static double median(double *values, size_t n)
 
 /* --- light of the ground --- */
 
+enum { RAYS = 8 }; /* for a texel each */
+
 /* What a wet ground only mirrors is taken away from its radiance. */
 static void take_mirrored(double rgb[3], const struct orthophoto_input *in, struct vec3 p)
 {
-    if (in->ground_reflection <= 0 || !in->ground) return;
-    struct vec3 d = vec3_unit(vec3_sub(p, in->seen->world_from_camera.translation));
-    double cosine = -vec3_dot(d, in->ground->normal), sky[3];
-    double share = in->ground_reflection + (1 - in->ground_reflection) * pow(1 - cosine, 5);
-    light_sky_radiance(sky, in->light, vec3_add(d, vec3_scale(in->ground->normal, 2 * cosine)));
-    for (int c = 0; c < 3; c++) rgb[c] = fmax(0, rgb[c] - share * sky[c]);
+    double sky[3];
+    if (in->wet.reflection <= 0 || !in->ground) return;
+    wet_sky(sky, &in->wet, in->light, in->ground->normal, vec3_unit(vec3_sub(in->seen->world_from_camera.translation, p)), RAYS);
+    for (int c = 0; c < 3; c++) rgb[c] = fmax(0, rgb[c] - sky[c]);
 }
 
 static void ground_radiance(const struct orthophoto_input *in, double rgb[3], struct vec2 q_px, struct vec3 p)

@@ -30,7 +30,7 @@ struct orthophoto_input {
     const struct light *light;
     const struct plane *ground;            /* without a place */
     const struct sun_share *sun;           /* then; NULL: the sun reaches all of it */
-    double ground_reflection;              /* of wet ground: what it mirrors of the sky is none of its albedo */
+    struct wet wet;                        /* what the ground mirrors of the sky is none of its albedo */
     const struct static_mesh *place;       /* NULL: the ground is a plane */
     const struct image *place_depth;       /* F32: z of the place as the picture sees it, NaN where it has none */
     const struct entity *entities;         /* (n) the ground round these, to ORTHOPHOTO_REACH_M from their boxes */

@@ -38,6 +38,12 @@ bool sky_map_write(char path[SKY_MAP_SIZE], const char *out_folder, const struct
     return ok;
 }
 
+/* What rough ground mirrors is in the receivers' light. */
+static bool is_mirror(const struct scene *scene)
+{
+    return scene->wet.reflection > 0 && scene->wet.roughness <= 0;
+}
+
 static void write_light(struct sdl *sdl, const struct passes *p, bool object)
 {
     const struct light *light = p->light;
@@ -56,7 +62,7 @@ static void write_light(struct sdl *sdl, const struct passes *p, bool object)
         sdl_declare_vector(sdl, "Circle_Centre", around->circle_m);
         sdl_declare_number(sdl, "Circle_Radius", around->circle_radius_m);
     }
-    if (object || p->scene->ground_reflection > 0) sdl_include(sdl, "sky.inc");
+    if (object || is_mirror(p->scene)) sdl_include(sdl, "sky.inc");
 }
 
 static void write_shade(struct sdl *sdl, const struct passes *p)
@@ -136,7 +142,7 @@ static void write_ground(struct sdl *sdl, const struct passes *p, bool object)
     const struct scene *scene = p->scene;
     const struct pass_surroundings *around = object ? p->surroundings : NULL;
     sdl_declare_color(sdl, "Ground_Albedo", around ? around->ground_albedo : scene->ground_albedo);
-    sdl_declare_number(sdl, "Ground_Reflection", scene->ground_reflection);
+    sdl_declare_number(sdl, "Ground_Reflection", object || is_mirror(scene) ? scene->wet.reflection : 0);
     sdl_include(sdl, "ground.inc");
     sdl_declare_number(sdl, "Has_Place", p->place_include != NULL);
     if (p->shades_include) sdl_include(sdl, p->shades_include);
@@ -206,7 +212,7 @@ static bool write_pass(const char *frame_folder, const char *name, const struct 
 {
     const struct scene *scene = p->scene;
     struct pass_settings settings = pass_settings(scene->quality);
-    bool mirrors = scene->ground_reflection > 0;
+    bool mirrors = is_mirror(scene);
     struct sdl sdl;
     sdl_init(&sdl);
     sdl_header(&sdl, "a pass of a frame: POV-Ray runs in the output folder, templates on its library path");

@@ -12,6 +12,7 @@
 #include "gen/model/catalogue.h"
 #include "gen/model/model.h"
 #include "gen/light/sun.h"
+#include "gen/light/wet.h"
 #include "lib/camera.h"
 #include "lib/class.h"
 #include "lib/error.h"
@@ -176,7 +177,7 @@ struct scene {
     struct scene_static static_;
     struct plane ground;       /* without a static mesh */
     double ground_albedo[3];   /* linear */
-    double ground_reflection;  /* 0..1, mirror share at normal incidence of a wet road; 0 dry */
+    struct wet wet;            /* the ground, with a plane */
     struct scene_skyline skyline; /* without a static mesh, and without a measured sky */
 
     enum sky_kind sky;         /* AUTO: to be told by the photographs (gen/estimate/estimate.h) */

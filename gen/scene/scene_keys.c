@@ -141,6 +141,7 @@ static const struct schema_key keys[] = {
     { "ground.points_m", TYPE_ROWS, "m", .presence = AT_MOST_ONE_OF, .count_min = 3, .columns = 3 },
     { "ground.albedo", TYPE_NUMBER | TYPE_NUMBERS | TYPE_COLOR, .preset = "0.2", COUNT(3), LIMITS(0, 1) },
     { "ground.reflection", TYPE_NUMBER, .preset = "0", LIMITS(0, 1) },
+    { "ground.roughness", TYPE_NUMBER, .preset = "0.4", LIMITS(0, 1) },
 
     { "surroundings", TYPE_MAPPING, SECTION },
     { "surroundings.skyline_deg", TYPE_NUMBER | TYPE_ROWS, "deg", .preset = "10", .count_min = 1, .columns = 2 },

@@ -46,11 +46,11 @@ bool scene_read_ground(const struct reading *r, const struct yaml_node *node)
     struct scene *scene = r->scene;
     const struct yaml_node *plane = yaml_get(node, "plane"), *points = yaml_get(node, "points_m");
     scene_read_color(scene->ground_albedo, yaml_get(node, "albedo"));
-    scene->ground_reflection = number_at(node, "reflection");
+    scene->wet = (struct wet){ number_at(node, "reflection"), number_at(node, "roughness") };
     if (scene->static_.mesh) {
         const struct yaml_node *other = points ? points : plane ? plane : yaml_get(node, "height_m");
         if (other) return FAIL(r, other, "ground: the static mesh is the ground: only albedo has a meaning here");
-        if (scene->ground_reflection > 0)
+        if (scene->wet.reflection > 0)
             return FAIL(r, yaml_get(node, "reflection"), "ground.reflection: goes with a plane, not with a static mesh");
         scene->ground = (struct plane){ vec3(0, 0, 1), 0 };
         return true;

@@ -10,6 +10,7 @@
  * of pixels can, and edges are not parted in their very middle. */
 #define LATTICE_RAD 0.3
 #define PARTED_AT 0.48
+#define ALBEDO_MIN 0.005 /* of which what is mirrored can still be told */
 
 /* Between an edge's ends, the share of the sky's light that entities leave may differ by so much: more where it is bright. */
 #define STEP 0.04
@@ -225,9 +226,20 @@ static double share_left(const struct sky_seen *seen)
     return all > 0 ? luminance_of(seen->with) / all : 1;
 }
 
+static void add_mirrored(struct sky_seen *sky, const struct sky_sight *sight, struct vec3 p, struct vec3 normal, const struct shaded_ground_detail *detail)
+{
+    struct sky_seen mirrored = sky_sight_mirrored(sight, p, normal, detail->eye_m, &detail->wet);
+    for (int c = 0; c < 3; c++) {
+        double albedo = fmax(detail->albedo[c], ALBEDO_MIN);
+        sky->without[c] += mirrored.without[c] / albedo;
+        sky->with[c] += mirrored.with[c] / albedo;
+    }
+}
+
 static void light_vertex(struct shaded_ground *g, size_t i, const struct sky_sight *sight, const struct shaded_ground_detail *detail)
 {
     g->sky[i] = sky_sight_at(sight, g->position_m[i], g->normal[i]);
+    if (detail->wet.reflection > 0 && detail->wet.roughness > 0) add_mirrored(&g->sky[i], sight, g->position_m[i], g->normal[i], detail);
     g->hidden[i] = sky_sight_hidden(sight, g->position_m[i], detail->eye_m);
 }
 

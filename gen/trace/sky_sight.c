@@ -1,5 +1,6 @@
 #include "gen/trace/sky_sight.h"
 
+#include "gen/light/sky_image.h"
 #include "gen/trace/exitance.h"
 #include "gen/trace/shape.h"
 #include "gen/world/cut_rays.h"
@@ -289,5 +290,50 @@ struct sky_seen sky_sight_at(const struct sky_sight *s, struct vec3 p, struct ve
     }
     gather(seen.with, s, normal);
     if (s->round.radiance) add_sent_back(seen.with, s, p, normal);
+    return seen;
+}
+
+/* --- what wet ground mirrors --- */
+
+static void radiance_round(double rgb[3], const struct sky_sight *s, struct vec3 direction)
+{
+    if (!s->round.radiance) {
+        light_sky_radiance(rgb, s->light, direction);
+        return;
+    }
+    const float *radiance = sky_radiance(s->round.radiance, direction);
+    for (int c = 0; c < 3; c++) rgb[c] = (double)radiance[c];
+}
+
+/* In/out: rgb  what comes along a ray to a point: past an entity, and from it. In: left  of the light on the ground there */
+static void pass_entity(double rgb[3], const struct blocker *b, struct vec3 ray, double left)
+{
+    struct shape_point point;
+    struct vec3 direction = mat3_apply(b->entity_from_world.rotation, ray);
+    double own[3] = { 0, 0, 0 };
+    float past = 1;
+    shape_shade(b->shape, &past, b->from_m, &direction, 1);
+    if (!(past < 1)) return;
+    if (b->exitance && shape_meet(b->shape, &point, b->from_m, direction)) exitance_radiance(own, b->exitance, &point, direction, left);
+    for (int c = 0; c < 3; c++) rgb[c] += b->share * (1 - (double)past) * (own[c] - rgb[c]);
+}
+
+struct sky_seen sky_sight_mirrored(const struct sky_sight *s, struct vec3 p, struct vec3 normal, struct vec3 eye, const struct wet *wet)
+{
+    struct sky_seen seen = { { 0 }, { 0 } };
+    struct wet_rays rays;
+    wet_rays(&rays, wet, normal, vec3_unit(vec3_sub(eye, p)), WET_RAYS_MAX);
+    for (size_t k = 0; k < s->blocker_count; k++) {
+        s->blockers[k].from_m = pose_apply(s->blockers[k].entity_from_world, p);
+        s->blockers[k].share = receiver_share(s->blockers[k].receiver, p);
+    }
+    for (size_t i = 0; i < rays.n; i++) {
+        double rgb[3];
+        radiance_round(rgb, s, rays.direction[i]);
+        for (int c = 0; c < 3; c++) seen.without[c] += rays.weight[i] * rgb[c];
+        for (size_t k = 0; k < s->blocker_count; k++)
+            if (s->blockers[k].share > 0) pass_entity(rgb, &s->blockers[k], rays.direction[i], 1);
+        for (int c = 0; c < 3; c++) seen.with[c] += rays.weight[i] * rgb[c];
+    }
     return seen;
 }

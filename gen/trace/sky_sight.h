@@ -4,6 +4,7 @@
 
 #include "gen/estimate/sun_share.h"
 #include "gen/light/light.h"
+#include "gen/light/wet.h"
 #include "gen/trace/sky_rays.h"
 #include "gen/trace/trace.h"
 #include "gen/world/entity.h"
@@ -47,5 +48,7 @@ double sky_sight_sun(const struct sky_sight *sight, struct vec3 p_m);
 
 /* Not for several threads at once. */
 struct sky_seen sky_sight_at(const struct sky_sight *sight, struct vec3 p_m, struct vec3 normal);
+/* What wet ground mirrors to an eye, likewise; of a plane, for nothing near by of a place is looked for. */
+struct sky_seen sky_sight_mirrored(const struct sky_sight *sight, struct vec3 p_m, struct vec3 normal, struct vec3 eye_m, const struct wet *wet);
 
 #endif

@@ -129,7 +129,7 @@ static void a_minimal_scene_takes_the_stated_defaults(void)
     OK(s->ground.normal.z == 1 && s->ground.offset_m == 0, "level ground");
     NEAR(s->ground_albedo[0], 0.2, 0, "albedo 0.2");
     NEAR(s->ground_albedo[2], 0.2, 0, "in each channel");
-    NEAR(s->ground_reflection, 0, 0, "dry");
+    NEAR(s->wet.reflection, 0, 0, "dry");
     OK(s->skyline.count == 1 && s->skyline.assumed, "what stands around is assumed");
     NEAR(s->skyline.point_rad[0][1], M_PI / 18, 1e-15, "up to 10 degrees");
     OK(!s->exposure_given && s->white_balance, "exposure and white balance are fitted");
@@ -159,7 +159,8 @@ static void a_full_scene_is_read_back(void)
     NEAR(s->ground_albedo[0], 1, 1e-7, "#ff is 1 in linear light");
     NEAR(s->ground_albedo[1], 0.21586, 1e-5, "#80 is 0.216 in linear light");
     NEAR(s->ground_albedo[2], 0, 0, "#00 is 0");
-    NEAR(s->ground_reflection, 0.125, 0, "reflection");
+    NEAR(s->wet.reflection, 0.125, 0, "reflection");
+    NEAR(s->wet.roughness, 0.4, 0, "as rough as a road");
     OK(s->exposure_given && s->exposure[0] == 0.75 && s->exposure[2] == 0.75 && !s->white_balance, "exposure given, one for all channels");
     OK(s->model_count == 2 && !strcmp(s->models[1].name, "tall box") && file_exists(s->models[1].files[DETAIL_NEAR]), "models by name");
     OK(s->models[0].options.length_m == 4.2 && s->models[0].options.unit_m == 0 && s->models[1].options.height_m == 1.8, "model sizes");

@@ -11,7 +11,8 @@ static bool shade_ground(struct shaded_ground *ground, const struct passes *pass
                          const struct static_cut *place, struct error *err)
 {
     struct pass_settings settings = pass_settings(passes->scene->quality);
-    struct shaded_ground_detail detail = { passes->world_from_camera.translation, 1 / passes->view.fx_px, settings.fine_px };
+    struct shaded_ground_detail detail = { passes->world_from_camera.translation, 1 / passes->view.fx_px, settings.fine_px, passes->scene->wet, { 0 } };
+    memcpy(detail.albedo, passes->scene->ground_albedo, sizeof detail.albedo);
     struct sky_sight *sight = NULL;
     struct tracer *tracer = NULL;
     bool ok = tracer_create(&tracer, NULL, 0, err) && /* each model gets a tree of its own */

@@ -49,7 +49,7 @@ static bool frame_light(struct frame *f, const struct light *light, const struct
 {
     struct pass_settings settings = pass_settings(QUALITY_STANDARD);
     /* From 8 m high and 10 m away, at 1000 px a radian. */
-    const struct shaded_ground_detail detail = { { -10, 0, 8 }, 1e-3, settings.fine_px };
+    const struct shaded_ground_detail detail = { { -10, 0, 8 }, 1e-3, settings.fine_px, { 0, 0 }, { 0 } };
     bool ok = sky_sight_create(&f->sight, &(struct sky_sight_input){ .light = light, .directions = settings.sky_directions }, err);
     for (f->n = 0; ok && f->n < n; f->n++)
         ok = receiver_create(&f->receivers[f->n], &entities[f->n], &flat, light, false, err) &&
@@ -87,6 +87,26 @@ static double share_at(const struct shaded_ground *g, double x, double y)
     return NAN;
 }
 
+/* The wall is dark, and an eye that looks down by 45 degrees sees it in the ground up to 2 m before it; the rougher, the less sharply it ends. */
+static void wet_before_a_wall(const struct sky_sight *sight)
+{
+    const struct wet film = { 0.05, 0.05 }, road = { 0.05, 0.4 };
+    double before = 0, rises = 0;
+    for (double d = 0.5; d < 4; d += 0.5) {
+        struct vec3 p = vec3(d, 3, 0), eye = vec3(d + 20, 3, 20);
+        struct sky_seen sharp = sky_sight_mirrored(sight, p, flat.normal, eye, &film), soft = sky_sight_mirrored(sight, p, flat.normal, eye, &road);
+        if (d != 2) NEAR(share_of(sharp), d > 2, 0.02, "%.1f m before the wall a film of water mirrors %s", d, d > 2 ? "the sky" : "it");
+        double left = share_of(soft);
+        rises = d > 0.5 ? fmax(rises, left - before) : 0;
+        OK(left > before, "%.1f m before it rough ground mirrors %.2f of the sky", d, left);
+        before = left;
+    }
+    OK(rises < 0.35, "and no step: %.2f at most in half a metre", rises);
+    struct vec3 p = vec3(3, 3, 0), eye = vec3(23, 3, 20);
+    double sky = sky_sight_at(sight, p, flat.normal).without[1], mirrored = sky_sight_mirrored(sight, p, flat.normal, eye, &film).without[1];
+    NEAR(mirrored / sky, 0.05 + 0.95 * pow(1 - sqrt(0.5), 5), 0.0005, "of an even sky Fresnel's share");
+}
+
 /* An even sky and an endless wall: of the ground's light at a distance d it takes (1 - d / sqrt(d^2 + h^2)) / 2. */
 static void beside_a_wall(const struct tracer *tracer)
 {
@@ -110,6 +130,7 @@ static void beside_a_wall(const struct tracer *tracer)
         }
         struct sky_seen slope = sky_sight_at(sight, vec3(-1, 3, 0), vec3(-1, 0, 0));
         NEAR(share_of(slope), 1, 1e-9, "what faces away from the wall loses nothing");
+        wet_before_a_wall(sight);
     }
     sky_sight_destroy(sight);
     solid_free(&wall);

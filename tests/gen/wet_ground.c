@@ -1,5 +1,6 @@
 /* Wet ground, as the plane pass renders it, against Fresnel as Schlick has it and the overcast sky of Moon and Spencer: beside
- * its own light it shows, straight from above, its mirror share of the sky overhead, and more of a darker sky aslant. */
+ * its own light it shows, straight from above, its mirror share of the sky overhead, and more of a darker sky aslant. Rough
+ * ground shows the mean of the sky round there. */
 #include "gen/render/passes.h"
 
 #include "lib/file.h"
@@ -19,17 +20,26 @@ static double sky_at(double sine)
     return 9.0 / 7 * (1 + 2 * sine) / 3;
 }
 
-static double radiance_at(double cosine)
+static double mirror_at(double cosine)
 {
-    return ALBEDO + (MIRROR + (1 - MIRROR) * pow(1 - cosine, 5)) * sky_at(cosine);
+    return (MIRROR + (1 - MIRROR) * pow(1 - cosine, 5)) * sky_at(cosine);
 }
 
-int main(void)
+static double rough_at(double cosine, double roughness)
+{
+    struct wet_rays rays;
+    double sum = 0;
+    wet_rays(&rays, &(struct wet){ MIRROR, roughness }, vec3(0, 0, 1), vec3(sqrt(1 - cosine * cosine), 0, cosine), WET_RAYS_MAX);
+    for (size_t i = 0; i < rays.n; i++) sum += rays.weight[i] * sky_at(rays.direction[i].z);
+    return sum;
+}
+
+static void check(double roughness)
 {
     const struct camera camera = { .model = CAMERA_PINHOLE, .width_px = WIDTH, .height_px = HEIGHT, .params = { 35, 35, 60, 60 } };
     const struct pose above = { { { { 1, 0, 0 }, { 0, -1, 0 }, { 0, 0, -1 } } }, { 0, 0, HEIGHT_M } };
     struct scene scene = { .path = "scene.yaml", .sky = SKY_OVERCAST, .sun = SUN_NONE, .sun_scale = 1, .ground = { { 0, 0, 1 }, 0 },
-                           .ground_albedo = { ALBEDO, ALBEDO, ALBEDO }, .ground_reflection = MIRROR, .quality = QUALITY_STANDARD };
+                           .ground_albedo = { ALBEDO, ALBEDO, ALBEDO }, .wet = { MIRROR, roughness }, .quality = QUALITY_STANDARD };
     struct error err = ERROR_NONE;
     char out[] = "wet_ground.XXXXXX", sky_map[SKY_MAP_SIZE];
     struct light light;
@@ -43,7 +53,7 @@ int main(void)
     const struct model_include include = model_include(0, &entity);
     struct passes p = { .scene = &scene, .sky_map = sky_map, .light = &light, .world_from_camera = above, .entities = &entity,
                         .includes = &include, .entity_count = 1, .ground = scene.ground, .receivers = &ground };
-    if (!OK(mkdtemp(out) != NULL, "a folder to render in")) return tap_done();
+    if (!OK(mkdtemp(out) != NULL, "a folder to render in")) return;
     char *folder = string_format("%s/frames", out), *path = string_format("%s/plane.exr", folder);
     bool ok = light_create(&light, &scene, &err) && sky_map_write(sky_map, out, &light, &err) &&
               receiver_create(&receiver, &entity, &scene.ground, &light, false, &err) &&
@@ -51,10 +61,10 @@ int main(void)
               shaded_ground_of_plane(&ground, &scene.ground, &receiver, 1, &err) && shade_ground(&ground, &p, &receiver, NULL, &err) &&
               model_include_write(&include, NULL, out, &entity, &err) && passes_write(folder, &p, &err) &&
               povray(out, "plane", p.view.width_px, p.view.height_px, "-A") && image_read(&plane, path, &err);
-    if (!OK(ok, "wet ground is rendered %s; %s/povray.log", err.text, out)) return tap_done();
+    if (!OK(ok, "wet ground of roughness %.1f is rendered %s; %s/povray.log", roughness, err.text, out)) return;
     double across = (double)p.view.width_px / WIDTH;
     for (int deg = 0; deg <= 55; deg += 11) {
-        double cosine = cos(deg * M_PI / 180), want = radiance_at(cosine), aside_px = 35 * tan(deg * M_PI / 180);
+        double cosine = cos(deg * M_PI / 180), want = ALBEDO + (roughness > 0 ? rough_at(cosine, roughness) : mirror_at(cosine)), aside_px = 35 * tan(deg * M_PI / 180);
         int x = (int)((60 + aside_px) * across), y = p.view.height_px / 2;
         const float *seen = image_f32(&plane, x, y);
         OK(seen[3] == 1, "%d deg aslant the ground receives", deg);
@@ -68,5 +78,11 @@ int main(void)
     free(folder);
     free(path);
     povray_remove(out);
+}
+
+int main(void)
+{
+    check(0);
+    check(0.4);
     return tap_done();
 }
