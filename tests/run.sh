@@ -161,6 +161,34 @@ check "stopped: a failure is not made of it" not says 'object.pov'
 check "stopped: no unfinished file is left" is "$(ls stopped/frames/*/*part* 2>/dev/null)" ''
 unset SIZE
 
+# What Ctrl-C sends goes to all processes of the terminal; a shell that tests starts one in has to give it INT back.
+stop_generating() {
+    rm -rf at-work early
+    setsid env --default-signal=INT "$staffage" "$2" many.yaml ${3:-} >log 2>&1 &
+    pid=$!
+    until [ -s at-work ] || ! kill -0 $pid 2>/dev/null; do sleep 0.05; done
+    began=$(date +%s)
+    if [ "$1" = Ctrl-C ]; then kill -INT -$pid; else kill "-$1" $pid; fi
+    wait $pid
+    status=$?
+    [ $status = 130 ] && [ $(($(date +%s) - began)) -lt 20 ] || return 1
+    not kill -0 "$(cat at-work)" 2>/dev/null
+}
+: >slow
+for signal in Ctrl-C INT TERM; do
+    check "stopped while generating by $signal: at once, exit status 130" stop_generating $signal run '-o early'
+    check "stopped while generating by $signal: says that nothing is lost" is "$(cat log)" \
+        'stopped; nothing is lost: the same command goes on from here'
+    check "stopped while generating by $signal: an empty folder is not left" test ! -e early
+done
+mkdir tmp
+TMPDIR=$work/tmp
+export TMPDIR
+check "light: stopped at once" stop_generating TERM light
+check "light: leaves nothing behind, to go on from either" is "$(cat log; ls tmp)" stopped
+unset TMPDIR
+rm slow
+
 # Usage.
 usage_error() {
     run "$staffage" "$@"
