@@ -5,6 +5,7 @@
 #include "gen/light/skyline.h"
 #include "gen/render/passes.h"
 #include "gen/run_json.h"
+#include "gen/sighting.h"
 #include "lib/file.h"
 #include "lib/image.h"
 #include "lib/manifest.h"
@@ -358,6 +359,11 @@ out:
     free(manifest);
     free(folder);
     return ok;
+}
+
+bool generator_warn_of_unseen(struct generator *g, const struct frame_result *frames, size_t n, struct error *err)
+{
+    return n < g->scene->shot_count || sighting_warn(g->stage, g->out_folder, frames, n, err);
 }
 
 bool generator_write_run(const struct generator *g, const struct frame_result *frames, size_t n,

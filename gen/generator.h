@@ -26,7 +26,7 @@ void generator_destroy(struct generator *generator);
 size_t generator_frame_count(const struct generator *generator);
 void generator_frame_name(char name[FRAME_NAME_SIZE], const struct generator *generator, size_t frame);
 
-/* Textures that models name and that were not found: one line each, in the order found. */
+/* What is no error and yet not as it should be: one line each, in the order found. */
 size_t generator_warning_count(const struct generator *generator);
 const char *generator_warning(const struct generator *generator, size_t i);
 
@@ -43,6 +43,12 @@ struct pass_settings generator_pass_settings(const struct generator *generator);
 
 /* Generate one frame, unless it is there from the same input. */
 bool generator_frame(struct frame_result *result, struct generator *generator, size_t frame, struct error *err);
+
+/* Add warnings of entities that no frame shows, or none larger than a few pixels. A part of the scene's frames does not tell
+ * what the others show: of it nothing is said.
+ * In:  frames (n)   those of this run
+ * Err: ERR_IO, ERR_INPUT: labels that cannot be read; ERR_MEMORY */
+bool generator_warn_of_unseen(struct generator *generator, const struct frame_result *frames, size_t n, struct error *err);
 
 /* OUT/run.json: version, scene and its hash, settings, light, frames; those of earlier runs of the same
  * input, too.

@@ -64,6 +64,7 @@ gen_libgen_a_SOURCES = \
   %D%/motion/crossing.c %D%/motion/crossing.h \
   %D%/motion/crowd.c %D%/motion/crowd.h \
   %D%/moment.c %D%/moment.h \
+  %D%/sighting.c %D%/sighting.h \
   %D%/motion/drive.c \
   %D%/motion/gait.c %D%/motion/gait.h \
   %D%/motion/journey.c %D%/motion/journey.h \

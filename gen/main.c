@@ -146,15 +146,24 @@ static void generate_each(struct run *r)
     }
 }
 
+/* Those from `first` on: the ones before were told already. */
+static void tell_warnings(const struct generator *generator, size_t first)
+{
+    for (size_t i = first; i < generator_warning_count(generator); i++)
+        fprintf(stderr, "staffage-gen: warning: %s\n", generator_warning(generator, i));
+}
+
 static bool generate_frames(struct generator *generator, const char *templates, const struct options *o, struct error *err)
 {
     struct run r;
-    size_t others = 0;
+    size_t others = 0, told = generator_warning_count(generator);
     bool ok = choose_frames(&r, generator, o, err) && generator_prepare(generator, r.chosen, r.n, err);
     if (ok) generate_each(&r);
     ok = ok && (r.done == 0 || (generator_write_run(generator, r.results, r.done, &others, err) &&
-                                makefile_write(o->out, templates, r.entries, r.done, err)));
+                                makefile_write(o->out, templates, r.entries, r.done, err) &&
+                                generator_warn_of_unseen(generator, r.results, r.done, err)));
     if (ok && r.done) printf("staffage: generated %zu frame%s, %zu unchanged\n", r.made, r.made == 1 ? "" : "s", r.kept);
+    if (ok) tell_warnings(generator, told);
     if (ok && others)
         fprintf(stderr, "staffage-gen: warning: %s holds %zu frame%s of another seed, scene or version, which no longer count: "
                 "take another folder (-o) to keep them apart\n", o->out, others, others == 1 ? "" : "s");
@@ -169,8 +178,7 @@ static bool generate_frames(struct generator *generator, const char *templates, 
 
 static void tell_findings(const struct generator *generator)
 {
-    for (size_t i = 0; i < generator_warning_count(generator); i++)
-        fprintf(stderr, "staffage-gen: warning: %s\n", generator_warning(generator, i));
+    tell_warnings(generator, 0);
     char *light = generator_light_text(generator);
     if (light) fputs(light, stdout);
     free(light);

@@ -97,6 +97,16 @@ check "a scene without entities: a picture all the same" test $status = 0 -a -s 
 run "$staffage" run nobody.yaml -o nobody
 check "a scene without entities, a second run: nothing to do" says '^nothing to do'
 
+# An entity beside the picture is a mistake, mostly; in a part of the frames nobody has to be.
+sed 's/at: {pixel: .*}, h/at: {world_m: [90, 20]}, h/' minimal.yaml >beside.yaml
+for time in first second; do
+    run "$staffage" generate beside.yaml -o beside
+    check "an entity in no frame is warned of, the $time time" test $status = 0 -a "$(grep -c 'warning: car-1 is in no frame$' log)" = 1
+done
+sed 's/street.png/street.png, street.png/' beside.yaml >twice.yaml
+run "$staffage" generate twice.yaml -o twice --frames 0:1
+check "--frames: nobody is warned of" test $status = 0 -a "$(grep -c warning log)" = 0
+
 # Installed elsewhere than configured, all works.
 if make -C "$top_builddir" --no-print-directory -s install DESTDIR="$work/root" >log 2>&1; then
     installed=$(find "$work/root" -name staffage -type f)

@@ -263,6 +263,70 @@ static void test_exposure_in_mist(void)
     manifest_release(&clear);
 }
 
+/* The warnings of what the first n frames of a scene show; the caller's, NULL when it cannot be made. */
+static char *unseen(const char *head, const char *rest, size_t n)
+{
+    struct error err = ERROR_NONE;
+    struct scene *scene = NULL;
+    struct generator *generator = NULL;
+    struct frame_result results[2];
+    char *path = in_scratch("scene.yaml"), *out = in_scratch("out"), *rules = string_format("%s/templates/materials.rules", top);
+    char *told = NULL;
+    bool ok = make(head, rest, &err) && scene_read(&scene, path, NULL, &err) && generator_create(&generator, scene, out, rules, &err);
+    for (size_t i = 0; ok && i < n; i++) ok = generator_frame(&results[i], generator, i, &err);
+    if (ok && generator_warn_of_unseen(generator, results, n, &err)) told = string_format("%s", "");
+    else printf("# %s:%d: %s\n", err.file, err.line, err.text);
+    for (size_t i = 0; told && i < generator_warning_count(generator); i++) {
+        char *longer = string_format("%s%s\n", told, generator_warning(generator, i));
+        free(told);
+        told = longer;
+    }
+    generator_destroy(generator);
+    scene_destroy(scene);
+    free(path);
+    free(out);
+    free(rules);
+    return told;
+}
+
+static void check_unseen(const char *head, const char *rest, size_t n, const char *want, const char *what)
+{
+    char *told = unseen(head, rest, n);
+    if (!OK(told && !strcmp(told, want), "%s", what)) printf("# %s\n", told ? told : "none");
+    free(told);
+}
+
+/* The box is 4 m long. Seen from 30 m with f = 60 px it has 8 px, from 90 m 2 px or 3. */
+static void test_unseen(void)
+{
+#define BOX(name, x, y) "{name: " name ", model: box, at: {world_m: [" x ", " y "]}, heading_deg: 0}"
+#define PLAIN "ground: {height_m: 0}\nexposure: {value: 1}\n"
+    char *head = fixed(""), *two = string_format(
+        "photographs: {files: [%s/tests/input/street.png, %s/tests/input/street.png], rate_hz: 1}\n"
+        "camera: {model: PINHOLE, size_px: [64, 48], params: [60, 60, 32, 24], " HIGH "}", top, top);
+    char *level = string_format("photographs: {files: [%s/tests/input/street.png]}\n"
+                                "camera: {model: PINHOLE, size_px: [64, 48], params: [60, 60, 32, 24], "
+                                "pose: {look_at: {position_m: [0, 0, 6], target_m: [0, 28, 0]}}}", top);
+    static const char far[] = PLAIN "entities: [" BOX("near", "0", "15") ", " BOX("beside", "60", "0") ", " BOX("tiny", "0", "90") "]";
+    static const char many[] = PLAIN "entities: [" BOX("a", "60", "0") ", " BOX("b", "60", "9") ", " BOX("c", "60", "18") ", "
+        BOX("d", "60", "27") ", " BOX("e", "60", "36") "]";
+    static const char behind[] = PLAIN "entities: [" BOX("e", "0", "0") "]\n"
+        "occluders: [{name: wall, polygon_px: [[0, 0], [64, 0], [64, 48], [0, 48]], ground_px: [32, 30]}]";
+    static const char comes[] = PLAIN "paths: [{name: way, use: vehicles, width_m: 3, points_m: [[-60, 0], [60, 0]]}]\n"
+        "entities: [{name: e, model: box, path: way, start_m: 0, speed_m_s: 60}]";
+    check_unseen(level, far, 1, "beside is in no frame\ntiny is 2 px large at most (frame 000000)\n",
+                 "who is in no frame, or very small, is named");
+    check_unseen(level, far, 1, "beside is in no frame\ntiny is 2 px large at most (frame 000000)\n", "so with frames that are kept");
+    check_unseen(head, many, 1, "a is in no frame\nb is in no frame\nc is in no frame\n2 more entities are in no frame\n",
+                 "many are counted");
+    check_unseen(head, behind, 1, "e is hidden in every frame that it is in\n", "who is hidden all the time is named");
+    check_unseen(two, comes, 2, "", "who comes in a later frame is seen");
+    check_unseen(two, comes, 1, "", "a part of the frames tells nothing of the others");
+    free(head);
+    free(two);
+    free(level);
+}
+
 int main(void)
 {
     snprintf(top, sizeof top, "%s", getenv("top_srcdir") ? getenv("top_srcdir") : ".");
@@ -285,6 +349,7 @@ int main(void)
     test_exposure_without_roads();
     test_exposure_is_fitted();
     test_exposure_in_mist();
+    test_unseen();
     char *remove = string_format("rm -rf %s", scratch);
     if (system(remove) != 0) printf("# %s is left\n", scratch);
     free(remove);
