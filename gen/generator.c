@@ -38,6 +38,7 @@ struct generator {
 };
 
 static char *photograph_path(const struct generator *g, size_t frame, struct error *err);
+static bool frame_camera(struct camera *camera, const struct generator *g, const struct scene_shot *shot, struct error *err);
 
 /* --- what is loaded once --- */
 
@@ -112,6 +113,7 @@ static bool estimate_light(struct generator *g, struct error *err)
     size_t shots[ESTIMATE_PHOTOGRAPHS], n = estimate_shots(shots, g->scene);
     struct estimate_photograph photographs[ESTIMATE_PHOTOGRAPHS] = { 0 };
     char *paths[ESTIMATE_PHOTOGRAPHS] = { 0 };
+    struct camera camera;
     if (n == 0)
         return error_at(err, ERR_INPUT, g->scene->path, g->scene->light_source.line, g->scene->light_source.column,
                         "light: is to be told by a photograph, and all shots are new views");
@@ -119,7 +121,8 @@ static bool estimate_light(struct generator *g, struct error *err)
     for (size_t i = 0; ok && i < n; i++) {
         char *named = photograph_path(g, shots[i], err);
         paths[i] = named ? path_from_folder(g->out_folder, named) : NULL;
-        ok = paths[i] || error_set(err, ERR_MEMORY, "no memory for a path");
+        /* With another camera than the photograph's, what is measured would be wrong. */
+        ok = (paths[i] || error_set(err, ERR_MEMORY, "no memory for a path")) && frame_camera(&camera, g, &g->scene->shots[shots[i]], err);
         photographs[i] = (struct estimate_photograph){ shots[i], paths[i] };
         free(named);
     }
@@ -286,12 +289,7 @@ static bool frame_camera(struct camera *camera, const struct generator *g, const
         height = g->video_height_px;
     } else if (shot->photograph && !image_read_size(&width, &height, shot->photograph, err))
         return false;
-    double across = (double)width / given->camera.width_px, down = (double)height / given->camera.height_px;
-    if (fabs(across - down) > 0.005 * across)
-        return error_at(err, ERR_INPUT, s->path, given->source.line, given->source.column,
-                        "camera: the calibration is for %d x %d pixels, but %s has %d x %d: another shape; "
-                        "size_px must be the size that params were calibrated at", given->camera.width_px,
-                        given->camera.height_px, s->video ? s->video : shot->photograph, width, height);
+    if (!scene_check_shape(s, shot, width, height, err)) return false;
     *camera = camera_scaled(&given->camera, (int)lround(width * s->scale), (int)lround(height * s->scale));
     return true;
 }

@@ -238,6 +238,10 @@ struct scene {
 bool scene_read(struct scene **scene, const char *path, const char *const *model_folders, struct error *err);
 void scene_destroy(struct scene *scene);
 
+/* Has a picture of this size the shape of a shot's camera?
+ * Err: ERR_INPUT at the camera, naming both */
+bool scene_check_shape(const struct scene *scene, const struct scene_shot *shot, int width_px, int height_px, struct error *err);
+
 /* One line a key, for the test that keeps docs/scene.md complete: "path\ttype\tunit\tdefault\n". */
 char *scene_schema_text(void);
 

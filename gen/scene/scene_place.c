@@ -155,8 +155,8 @@ bool scene_read_exposure(const struct reading *r, const struct yaml_node *node)
     if (!(p[0] < p[2] && p[1] < p[3]))
         return FAIL(r, patch, "exposure.patch_px: empty: the order is [left, top, right, bottom]");
     if (p[2] > camera->width_px || p[3] > camera->height_px)
-        return FAIL(r, patch, "exposure.patch_px: reaches out of the picture of %dx%d px (camera.size_px)",
-                    camera->width_px, camera->height_px);
+        return scene_shape_fits(r, 0) && FAIL(r, patch, "exposure.patch_px: reaches out of the picture of %dx%d px (camera.size_px)",
+                                              camera->width_px, camera->height_px);
     scene->exposure_patch_px[0] = (struct vec2){ p[0], p[1] };
     scene->exposure_patch_px[1] = (struct vec2){ p[2], p[3] };
     return true;

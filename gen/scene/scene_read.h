@@ -57,6 +57,9 @@ bool scene_read_traffic(const struct reading *r, const struct yaml_node *node);
 /* A name of a model, "any CLASS", a list of these, or each with its weight.
  * In: who wants it, for the error */
 bool scene_read_choice(const struct reading *r, struct scene_choice *choice, const struct yaml_node *node, const char *who);
+/* What is outside of the camera's picture may be so because that has another shape than the photograph: then that is the error.
+ * True where the shape is the same, or the photograph cannot be read: the caller's own error is the right one. */
+bool scene_shape_fits(const struct reading *r, size_t shot);
 /* Does a pixel position lie in the picture of a shot? In: who, for the error */
 bool scene_check_pixel(const struct reading *r, struct vec2 q_px, size_t shot, const struct yaml_node *node,
                        const char *who);

@@ -2,7 +2,9 @@
 #include "gen/scene/scene_keys.h"
 #include "gen/scene/scene_pose.h"
 #include "gen/scene/scene_read.h"
+#include "lib/image.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -207,6 +209,26 @@ bool scene_read_shots(const struct reading *r, const struct yaml_node *root)
     return shots ? read_flight(r, shots, cameras) : read_fixed_camera(r, photographs, camera);
 }
 
+bool scene_check_shape(const struct scene *s, const struct scene_shot *shot, int width, int height, struct error *err)
+{
+    const struct scene_camera *given = &s->cameras[shot->camera];
+    double across = (double)width / given->camera.width_px, down = (double)height / given->camera.height_px;
+    return fabs(across - down) <= 0.005 * across ||
+           error_at(err, ERR_INPUT, s->path, given->source.line, given->source.column,
+                    "camera: the calibration is for %d x %d pixels, but %s has %d x %d: another shape; "
+                    "size_px must be the size that params were calibrated at", given->camera.width_px,
+                    given->camera.height_px, s->video ? s->video : shot->photograph, width, height);
+}
+
+bool scene_shape_fits(const struct reading *r, size_t index)
+{
+    const struct scene_shot *shot = &r->scene->shots[index];
+    struct error unread = ERROR_NONE;
+    int width, height;
+    return !shot->photograph || !image_read_size(&width, &height, shot->photograph, &unread) ||
+           scene_check_shape(r->scene, shot, width, height, r->err);
+}
+
 bool scene_check_pixel(const struct reading *r, struct vec2 q, size_t shot, const struct yaml_node *node, const char *who)
 {
     const struct scene *scene = r->scene;
@@ -214,6 +236,7 @@ bool scene_check_pixel(const struct reading *r, struct vec2 q, size_t shot, cons
         return FAIL(r, node, "%s: there is no shot %zu: they run from 0 to %zu", who, shot, scene->shot_count - 1);
     const struct camera *camera = &scene->cameras[scene->shots[shot].camera].camera;
     return (q.x <= camera->width_px && q.y <= camera->height_px) ||
-           FAIL(r, node, "%s: the pixel lies outside the picture of %dx%d px (camera.size_px)", who, camera->width_px,
-                camera->height_px);
+           (scene_shape_fits(r, shot) &&
+            FAIL(r, node, "%s: the pixel lies outside the picture of %dx%d px (camera.size_px)", who, camera->width_px,
+                 camera->height_px));
 }
