@@ -24,6 +24,41 @@ static bool of_this_run(const json_t *run, const char *frame)
     return false;
 }
 
+static bool is_output(const char *folder)
+{
+    char *run = string_format("%s/run.json", folder);
+    bool is = run && file_exists(run);
+    free(run);
+    return is;
+}
+
+/* The output folder that was meant, most likely: that which the path lies in, or that of the scene it names. The caller
+ * frees; NULL: none, or no memory. */
+static char *meant(const char *path)
+{
+    const char *name = strrchr(path, '/') ? strrchr(path, '/') + 1 : path, *ending = strrchr(name, '.');
+    char *of_scene = ending && ending > name ? string_format("out/%.*s", (int)(ending - name), name) : NULL;
+    if (of_scene && is_output(of_scene)) return of_scene;
+    free(of_scene);
+    char *at = path_folder(path);
+    while (at && !is_output(at)) {
+        char *above = strcmp(at, "/") != 0 && strcmp(at, ".") != 0 ? path_folder(at) : NULL;
+        free(at);
+        at = above;
+    }
+    return at;
+}
+
+/* Always returns false. */
+static bool no_output(const char *path, struct error *err)
+{
+    char *right = meant(path);
+    error_at(err, ERR_INPUT, path, 0, 0, "is not a folder that `staffage run` wrote%s%s%s", right ? "; " : "", right ? right : "",
+             right ? " is one" : "");
+    free(right);
+    return false;
+}
+
 bool frame_list(char ***frames, size_t *count, const char *out, struct error *err)
 {
     char *folder = string_format("%s/frames", out), *run_path = string_format("%s/run.json", out);
@@ -36,7 +71,8 @@ bool frame_list(char ***frames, size_t *count, const char *out, struct error *er
     free(run_path);
     struct dirent **entries = NULL;
     int found = scandir(folder, &entries, is_frame_name, alphasort);
-    if (found < 0) error_at(err, ERR_INPUT, folder, 0, 0, "cannot be read: %s", strerror(errno));
+    if (found < 0 && (errno == ENOENT || errno == ENOTDIR)) no_output(out, err);
+    else if (found < 0) error_at(err, ERR_INPUT, folder, 0, 0, "cannot be read: %s", strerror(errno));
     char **list = calloc((size_t)(found > 0 ? found : 1), sizeof *list);
     if (!list) error_set(err, ERR_MEMORY, "no memory for a list of frames");
     size_t n = 0;

@@ -25,7 +25,7 @@ struct stats {
 
 /* Over all frames of an output folder. Before are the photographs' semantic images or the place's labels;
  * where some frames have these, those that have not are left out. Release it.
- * Err: ERR_INPUT at OUT/frames: there are none; ERR_INPUT for the first frame when none can be counted; ERR_MEMORY */
+ * Err: ERR_INPUT as frame_list: no output folder, no frames; ERR_INPUT for the first frame when none can be counted; ERR_MEMORY */
 bool stats_count(struct stats *stats, const char *out, struct error *err);
 void stats_release(struct stats *stats);
 

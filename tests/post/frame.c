@@ -227,7 +227,7 @@ static void check_options(void)
     OK(run((const char *const[]){ out, "--fast", NULL }) == 2 && strstr(said, "--fast"), "an unknown option is named");
     OK(run((const char *const[]){ out, "--frame", "../x", NULL }) == 2 && strstr(said, "../x"), "a frame is a number");
     OK(run((const char *const[]){ out, "elsewhere", NULL }) == 2 && strstr(said, "elsewhere"), "there is one folder");
-    OK(run((const char *const[]){ "/nowhere", NULL }) == 1 && strstr(said, "/nowhere/frames: cannot be read"), "a folder that is not there is named");
+    OK(run((const char *const[]){ "/nowhere", NULL }) == 1 && strstr(said, "/nowhere: is not a folder that `staffage run` wrote"), "a folder that is not there is named");
 }
 
 /* The frame fails, the file is named with what is wrong, and no picture pretends to be whole. */

@@ -135,6 +135,26 @@ static void check_put_in(void)
        "no frame at all is an error, at the first");
 }
 
+static bool refuses(const char *path, const char *right)
+{
+    struct stats s;
+    struct error err = ERROR_NONE;
+    return !stats_count(&s, path, &err) && !strcmp(err.file, path) && strstr(err.text, right);
+}
+
+/* What lies beside the folder that is meant, or in it. */
+static void check_neighbours(void)
+{
+    struct error err = ERROR_NONE;
+    folder_make(in_out("out/mine/rgb"), &err);
+    file_write(in_out("out/mine/run.json"), "{}", 2, &err);
+    file_write(in_out("mine.yaml"), "", 0, &err);
+    if (!OK(chdir(out) == 0, "a folder of scenes")) return;
+    OK(refuses("out/mine/rgb", "wrote; out/mine is one"), "a folder in the output: that is named");
+    OK(refuses("mine.yaml", "wrote; out/mine is one"), "a scene: its output is named");
+    OK(chdir("..") == 0, "and back");
+}
+
 static int remove_entry(const char *path, const struct stat *st, int type, struct FTW *ftw)
 {
     (void)st, (void)type, (void)ftw;
@@ -146,7 +166,9 @@ int main(void)
     struct stats s;
     struct error err = ERROR_NONE;
     if (!mkdtemp(out)) return 1;
-    OK(!stats_count(&s, out, &err) && strstr(err.file, "frames"), "a folder without frames is refused");
+    OK(!stats_count(&s, out, &err) && !strcmp(err.file, out) && !strcmp(err.text, "is not a folder that `staffage run` wrote"),
+       "a folder without frames is refused");
+    check_neighbours();
     check_before_and_after();
     check_missing();
     check_put_in();
