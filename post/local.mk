@@ -23,6 +23,7 @@ post_libpost_a_SOURCES = \
   %D%/mist.c %D%/mist.h \
   %D%/morphology.cpp %D%/morphology.h \
   %D%/motion.c %D%/motion.h \
+  %D%/objects.c %D%/objects.h \
   %D%/optics.c %D%/optics.h \
   %D%/output.c %D%/output.h \
   %D%/resample.c %D%/resample.h \

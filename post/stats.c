@@ -53,6 +53,14 @@ static bool read_after(struct image *after, const char *out, const struct manife
     return ok;
 }
 
+static bool count_objects(struct stats *stats, const char *out, const struct manifest *m, struct error *err)
+{
+    char *path = string_format("%s/labels/%s.json", out, m->frame);
+    bool ok = path ? objects_add(stats->objects, path, err) : error_set(err, ERR_MEMORY, "no memory for a path");
+    free(path);
+    return ok;
+}
+
 static bool count_frame(struct stats *stats, const char *out, const struct manifest *m, struct error *err)
 {
     struct image before = { 0 }, after = { 0 };
@@ -61,7 +69,7 @@ static bool count_frame(struct stats *stats, const char *out, const struct manif
                          palette_name((int)stats->palette));
     if (!before_semantic(&before, out, m, err)) return false;
     bool ok = before.data || !stats->has_before || error_set(err, ERR_INPUT, "has no labels of its own, as other frames have");
-    ok = ok && read_after(&after, out, m, before.data ? before.channels : 1, err);
+    ok = ok && read_after(&after, out, m, before.data ? before.channels : 1, err) && count_objects(stats, out, m, err);
     if (ok) {
         stats->palette = m->palette;
         stats->frames++;
@@ -128,6 +136,7 @@ bool stats_count(struct stats *stats, const char *out, struct error *err)
         ok = error_prefix(err, "no frame can be counted: ");
     }
     frame_list_free(frames, count);
+    objects_sort(s.objects);
     if (ok) *stats = s;
     else stats_release(&s);
     return ok;
@@ -137,5 +146,6 @@ void stats_release(struct stats *stats)
 {
     for (size_t i = 0; i < stats->skipped_count; i++) free(stats->skipped[i].why);
     free(stats->skipped);
+    objects_release(stats->objects);
     *stats = (struct stats){ 0 };
 }

@@ -1,9 +1,10 @@
-/* How much of the pictures each class has, before anything is put in and after. */
+/* How much of the pictures each class has, before anything is put in and after; and what can be seen of the objects. */
 #ifndef STAFFAGE_POST_STATS_H
 #define STAFFAGE_POST_STATS_H
 
 #include "lib/class.h"
 #include "lib/error.h"
+#include "post/objects.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -19,6 +20,7 @@ struct stats {
     size_t frames;          /* counted */
     uint64_t pixels;        /* of all of them */
     uint64_t before[STATS_OTHER + 1], after[STATS_OTHER + 1]; /* pixels by id; before: 0 without has_before */
+    struct objects objects[CLASS_COUNT]; /* that were put in, by class; their values ascend */
     struct stats_skipped *skipped; /* frames that could not be counted, with the reason */
     size_t skipped_count;
 };

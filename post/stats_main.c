@@ -1,4 +1,4 @@
-/* staffage-stats: the share of pixels of each class, before and after. */
+/* staffage-stats: the share of pixels of each class, before and after, and its objects. */
 #include "lib/error.h"
 #include "post/stats.h"
 
@@ -8,7 +8,8 @@
 
 static const char usage[] =
     "Usage: staffage-stats OUT [--json]\n"
-    "Print the share of pixels that each class has in the frames of a dataset, before and after.\n"
+    "Print the share of pixels that each class has in the frames of a dataset, before and after,\n"
+    "and how many objects of each class there are, how large and how much of them visible.\n"
     "\n"
     "  OUT             the output folder of staffage\n"
     "  --json          print JSON\n"

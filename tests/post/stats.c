@@ -6,6 +6,7 @@
 #include "tests/tap.h"
 
 #include <ftw.h>
+#include <jansson.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -37,7 +38,9 @@ static bool save_manifest(const char *frame, const char *semantic, enum palette 
     snprintf(m.frame, sizeof m.frame, "%s", frame);
     snprintf(m.semantic, sizeof m.semantic, "%s", semantic);
     return folder_make(in_out("frames/%s", frame), &err) && folder_make(in_out("semantic"), &err) &&
-           folder_make(in_out("semantic_id"), &err) && manifest_write(in_out("frames/%s/frame.json", frame), &m, &err);
+           folder_make(in_out("semantic_id"), &err) && folder_make(in_out("labels"), &err) &&
+           file_write(in_out("labels/%s.json", frame), "{\"entities\": []}", 16, &err) &&
+           manifest_write(in_out("frames/%s/frame.json", frame), &m, &err);
 }
 
 /* Road, with the first pixels of other colours. */
@@ -135,6 +138,49 @@ static void check_put_in(void)
        "no frame at all is an error, at the first");
 }
 
+#define OBJECT(class_, in_frame, height, pixels, fraction) \
+    "{\"class\": \"" class_ "\", \"in_frame\": " in_frame ", \"box_visible_px\": [1, 2, 3, " height "], " \
+    "\"pixels_visible\": " pixels ", \"visible_fraction\": " fraction "}"
+
+static bool save_labels(const char *frame, const char *entities)
+{
+    struct error err = ERROR_NONE;
+    char *text = string_format("{\"version\": 1, \"entities\": [%s]}", entities);
+    bool ok = text && file_write(in_out("labels/%s.json", frame), text, strlen(text), &err);
+    free(text);
+    return ok;
+}
+
+/* Frames of three cars and two people: one car is hidden, one person in no frame. */
+static void check_objects(void)
+{
+    struct stats s;
+    struct error err = ERROR_NONE;
+    save_manifest("000000", "", PALETTE_CITYSCAPES);
+    save_manifest("000001", "", PALETTE_CITYSCAPES);
+    save_manifest("000002", "", PALETTE_CITYSCAPES);
+    for (int i = 0; i < 3; i++) save_ids(i == 0 ? "semantic_id/000000.png" : i == 1 ? "semantic_id/000001.png" : "semantic_id/000002.png", 3, 1);
+    save_labels("000000", OBJECT("car", "true", "20", "90", "1") ", " OBJECT("person", "false", "0", "0", "0"));
+    save_labels("000001", OBJECT("car", "true", "10", "30", "0.5") ", " OBJECT("car", "true", "0", "0", "0") ", "
+                OBJECT("person", "true", "7", "5", "0.25"));
+    save_labels("000002", "{\"class\": \"ship\"}");
+    if (!OK(stats_count(&s, out, &err) && s.frames == 2, "frames with objects: %s", err.text)) return;
+    OK(s.objects[CLASS_CAR].count == 3 && s.objects[CLASS_CAR].visible == 2 && s.objects[CLASS_PERSON].count == 1 &&
+           s.objects[CLASS_BUS].count == 0, "each is counted in each frame that it is in, and as visible where it is");
+    OK(says(stats_table(&s), "\ncar                           3          2     12.5     15.0     17.5    0.625    0.750    0.875\n"),
+       "the table has quartiles of the visible boxes' height and of the fraction that is visible");
+    OK(says(stats_table(&s), "\nperson                        1          1      7.0      7.0      7.0    0.250    0.250    0.250\n"), "of one as of many");
+    char *text = stats_json(&s);
+    json_t *root = text ? json_loads(text, 0, NULL) : NULL, *car = json_array_get(json_object_get(root, "objects"), 1);
+    OK(json_integer_value(json_object_get(car, "in_frames")) == 3 && json_integer_value(json_object_get(car, "visible")) == 2 &&
+           json_number_value(json_array_get(json_object_get(car, "height_px"), 1)) == 15 &&
+           json_number_value(json_array_get(json_object_get(car, "visible_fraction"), 2)) == 0.875, "and so has the JSON");
+    json_decref(root);
+    free(text);
+    OK(says(stats_table(&s), "labels/000002.json: entities[0] is not what staffage writes\n"), "labels that are damaged are told");
+    stats_release(&s);
+}
+
 static bool refuses(const char *path, const char *right)
 {
     struct stats s;
@@ -172,6 +218,7 @@ int main(void)
     check_before_and_after();
     check_missing();
     check_put_in();
+    check_objects();
     nftw(out, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
     return tap_done();
 }
