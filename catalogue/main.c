@@ -12,8 +12,8 @@
 #include <string.h>
 
 static const char help[] =
-    "Usage: staffage-models [--json] [--pictures FOLDER] [--width PX]\n"
-    "       staffage-models add FILE [option ...]\n"
+    "Usage: staffage models [--json] [--pictures FOLDER] [--width PX]\n"
+    "       staffage models add FILE [option ...]\n"
     "List the models that scenes name by short names, or add one of your own.\n"
     "\n"
     "      --json             list as JSON\n"
@@ -37,7 +37,7 @@ static const char help[] =
 
 static int usage(const char *what, const char *value)
 {
-    fprintf(stderr, "staffage-models: %s%s%s (staffage-models --help)\n", what, value ? ": " : "", value ? value : "");
+    fprintf(stderr, "staffage-models: %s%s%s (staffage models --help)\n", what, value ? ": " : "", value ? value : "");
     return 2;
 }
 

@@ -13,7 +13,7 @@
 #include <string.h>
 
 static const char help[] =
-    "Usage: staffage-fuse SCENE.yaml -o SEMANTIC.ply [option ...]\n"
+    "Usage: staffage fuse SCENE.yaml -o SEMANTIC.ply [option ...]\n"
     "Fuse the semantic images of a scene's shots onto its mesh, and write that with a label for each face.\n"
     "\n"
     "  -o, --output SEMANTIC.ply  the mesh with labels, world metres\n"
@@ -27,7 +27,7 @@ struct options { const char *scene, *out; double fill_m; };
 
 static int usage(const char *what, const char *value)
 {
-    fprintf(stderr, "staffage-fuse: %s%s%s (staffage-fuse --help)\n", what, value ? ": " : "", value ? value : "");
+    fprintf(stderr, "staffage-fuse: %s%s%s (staffage fuse --help)\n", what, value ? ": " : "", value ? value : "");
     return 2;
 }
 

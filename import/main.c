@@ -16,7 +16,7 @@
 #include <strings.h>
 
 static const char help[] =
-    "Usage: staffage-import colmap|opensfm|nerfstudio DIR -o SCENE.yaml [option ...]\n"
+    "Usage: staffage import colmap|opensfm|nerfstudio DIR -o SCENE.yaml [option ...]\n"
     "Write the scene file of a flight from what a structure-from-motion tool left in DIR.\n"
     "\n"
     "  -o, --output SCENE.yaml  the scene file; one that is there is not overwritten\n"
@@ -53,7 +53,7 @@ struct options {
 
 static int usage(const char *what, const char *value)
 {
-    fprintf(stderr, "staffage-import: %s%s%s (staffage-import --help)\n", what, value ? ": " : "", value ? value : "");
+    fprintf(stderr, "staffage-import: %s%s%s (staffage import --help)\n", what, value ? ": " : "", value ? value : "");
     return 2;
 }
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 static const char usage[] =
-    "Usage: staffage-stats OUT [--json]\n"
+    "Usage: staffage stats OUT [--json]\n"
     "Print the share of pixels that each class has in the frames of a dataset, before and after,\n"
     "and how many objects of each class there are, how large and how much of them visible.\n"
     "\n"
@@ -20,7 +20,7 @@ static const char usage[] =
 
 static int misused(const char *what, const char *value)
 {
-    fprintf(stderr, "staffage-stats: %s%s (staffage-stats --help shows how)\n", what, value);
+    fprintf(stderr, "staffage-stats: %s%s (staffage stats --help shows how)\n", what, value);
     return 2;
 }
 

@@ -27,6 +27,22 @@ for program in staffage staffage-fuse staffage-gen staffage-import staffage-mode
     fi
 done
 
+# Each command has a page of its own, with its line of the synopsis and the options that it takes.
+run "$top_builddir/staffage" --help
+cp log whole
+for command in run generate render post import fuse stats light models; do
+    run "$top_builddir/staffage" $command --help
+    check "staffage $command --help: its own page" test $status = 0 -a \
+        "$(head -n 1 log | grep -c "^Usage: staffage $command ")" = 1 -a "$(grep -c 'staffage-' log)" = 0
+    case $command in run|generate|render|post|light)
+        check "staffage $command --help: its line is that of staffage --help" \
+            is "$(sed -n 's/^Usage: *//p' log)" "$(sed -n "s/^[Usage: ]*\(staffage $command .*\)/\1/p" whole)"
+        head -n 1 log | grep -o -e '--*[a-z][a-z]*' | sort -u >line
+        help_options | grep -v '^--help$' >page
+        check "staffage $command --help: explains the options of this line" cmp -s line page ;;
+    esac
+done
+
 sed -n '/^\.Bd/,/^\.Ed/p' "$top_srcdir/man/staffage-scene.5" | grep -v '^\.' >scene.yaml
 cp "$top_srcdir/tests/input/street.png" street.jpg
 cp "$top_srcdir/tests/input/box.obj" hatchback.obj
