@@ -114,7 +114,18 @@ static bool choose_frames(struct run *r, struct generator *generator, const stru
         int number = atoi(name);
         if (number >= o->first && number < o->end) r->chosen[r->n++] = i;
     }
-    return r->n || error_set(err, ERR_INPUT, "--frames %d:%d: the scene has no frame in that range", o->first, o->end);
+    return true;
+}
+
+/* Before the light is measured, which may take a minute. */
+static bool check_range(const struct scene *scene, const struct options *o, struct error *err)
+{
+    int first = scene->shots[0].number, last = scene->shots[scene->shot_count - 1].number;
+    for (size_t i = 0; i < scene->shot_count; i++)
+        if (scene->shots[i].number >= o->first && scene->shots[i].number < o->end) return true;
+    if (first == last) return error_set(err, ERR_INPUT, "--frames %d:%d: the scene has one frame, %d", o->first, o->end, first);
+    return error_set(err, ERR_INPUT, "--frames %d:%d: the scene has %zu frames, from %d to %d, and none of them there", o->first, o->end,
+                     scene->shot_count, first, last);
 }
 
 static struct makefile_frame makefile_entry(const struct frame_result *result, const struct pass_settings *settings)
@@ -194,7 +205,7 @@ static bool generate(const struct options *o, struct error *err)
     bool ok = catalogue_folders_init(&folders, PKGDATADIR, err) && scene_read(&scene, o->scene, folders.list, err);
     if (ok && o->quality >= 0) scene->quality = (enum quality)o->quality;
     if (ok && o->has_seed) scene->seed = o->seed;
-    ok = ok && (!o->light || ask_for_light(scene, err)) && generator_create(&generator, scene, o->out, rules, err);
+    ok = ok && check_range(scene, o, err) && (!o->light || ask_for_light(scene, err)) && generator_create(&generator, scene, o->out, rules, err);
     if (ok) tell_findings(generator);
     ok = ok && (o->light || generate_frames(generator, templates, o, err));
     generator_destroy(generator);

@@ -51,4 +51,13 @@ STAFFAGE_DATADIR=$top_srcdir
 export STAFFAGE_DATADIR
 run "$top_builddir/staffage-gen" scene.yaml -o out
 check "staffage-scene: its example is a scene" is $status 0
+
+# What frames there are is told before the light is measured.
+sed -i 's/sky: clear/sky: auto/' scene.yaml
+run "$top_builddir/staffage-gen" scene.yaml -o out --frames 5:9
+check "--frames without any: says which there are, and measures nothing" \
+    is "$status $(cat log)" '1 staffage-gen: --frames 5:9: the scene has one frame, 0'
+sed -i 's/files: .*jpg]/files: [street.jpg, street.jpg, street.jpg]/' scene.yaml
+run "$top_builddir/staffage-gen" scene.yaml -o out --frames 5:9
+check "--frames without any of several: says from which to which" says 'the scene has 3 frames, from 0 to 2, and none of them there$'
 tap_done
