@@ -44,35 +44,58 @@ bool image_from_mat(struct image *image, const cv::Mat &mat, const char *path, s
     return true;
 }
 
-/* libjpeg fills a truncated JPEG with grey and says nothing: its end marker tells. */
-bool ends_early(const char *path)
-{
-    char *data;
-    size_t size;
-    struct error ignored = {};
-    if (!file_read(&data, &size, path, &ignored)) return false;
-    const unsigned char *bytes = (const unsigned char *)data;
-    bool jpeg = size > 3 && bytes[0] == 0xff && bytes[1] == 0xd8, ends = false;
-    /* Segments may hold whole pictures, thumbnails, and more may follow the end: the marker that counts
-     * is the first one after the start of the scan, in which no other 0xff 0xd9 can stand. */
-    size_t at = 2;
-    while (jpeg && at + 4 <= size && bytes[at] == 0xff && bytes[at + 1] != 0xda)
-        at += bytes[at + 1] == 0xff ? 1 : 2 + (size_t)(bytes[at + 2] << 8 | bytes[at + 3]);
-    for (; jpeg && !ends && at + 1 < size; at++) ends = bytes[at] == 0xff && bytes[at + 1] == 0xd9;
-    free(data);
-    return jpeg && !ends;
-}
-
 const unsigned char png_signature[] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
 
-bool is_png(const char *path)
+bool is_png(const unsigned char *bytes, size_t size)
+{
+    return size >= sizeof png_signature && !memcmp(bytes, png_signature, sizeof png_signature);
+}
+
+bool is_jpeg(const unsigned char *bytes, size_t size)
+{
+    return size > 3 && bytes[0] == 0xff && bytes[1] == 0xd8;
+}
+
+/* What OpenCV may be given from memory as well as from a file; an EXR it would first write to one. */
+bool is_png_or_jpeg(const char *path)
 {
     unsigned char head[sizeof png_signature] = { 0 };
     FILE *f = fopen(path, "rb");
     if (!f) return false;
-    bool png = fread(head, 1, sizeof head, f) == sizeof head && !memcmp(head, png_signature, sizeof head);
+    size_t size = fread(head, 1, sizeof head, f);
     fclose(f);
-    return png;
+    return is_png(head, size) || is_jpeg(head, size);
+}
+
+bool jpeg_ends(const unsigned char *bytes, size_t size)
+{
+    /* Segments may hold whole pictures, thumbnails, and more may follow the end: the marker that counts
+     * is the first one after the start of the scan, in which no other 0xff 0xd9 can stand. */
+    size_t at = 2;
+    while (at + 4 <= size && bytes[at] == 0xff && bytes[at + 1] != 0xda)
+        at += bytes[at + 1] == 0xff ? 1 : 2 + (size_t)(bytes[at + 2] << 8 | bytes[at + 3]);
+    for (; at + 1 < size; at++)
+        if (bytes[at] == 0xff && bytes[at + 1] == 0xd9) return true;
+    return false;
+}
+
+size_t png_length(const unsigned char *chunk)
+{
+    return (size_t)chunk[0] << 24 | (size_t)chunk[1] << 16 | (size_t)chunk[2] << 8 | chunk[3];
+}
+
+bool png_ends(const unsigned char *bytes, size_t size)
+{
+    for (size_t at = sizeof png_signature; at + 12 <= size && png_length(bytes + at) <= size - at - 12; at += png_length(bytes + at) + 12)
+        if (!memcmp(bytes + at + 4, "IEND", 4)) return true;
+    return false;
+}
+
+/* Looked at before it is decoded: libjpeg fills what is missing with grey, and both libraries print lines of their own. */
+bool ends_early(const unsigned char *bytes, size_t size)
+{
+    if (is_jpeg(bytes, size)) return !jpeg_ends(bytes, size);
+    return is_png(bytes, size) && !png_ends(bytes, size);
 }
 
 /* A PNG without its colour profile, which nobody here uses: libpng prints a line about many of them. */
@@ -81,8 +104,7 @@ std::vector<unsigned char> without_profile(const unsigned char *data, size_t siz
     std::vector<unsigned char> out(data, data + sizeof png_signature);
     for (size_t at = sizeof png_signature; at + 12 <= size;) {
         const unsigned char *chunk = data + at;
-        size_t length = (size_t)chunk[0] << 24 | (size_t)chunk[1] << 16 | (size_t)chunk[2] << 8 | chunk[3];
-        size_t whole = length > size - at - 12 ? size - at : length + 12;
+        size_t length = png_length(chunk), whole = length > size - at - 12 ? size - at : length + 12;
         if (memcmp(chunk + 4, "iCCP", 4) != 0) out.insert(out.end(), chunk, chunk + whole);
         at += whole;
     }
@@ -94,8 +116,7 @@ cv::Mat decode(const void *data, size_t size)
     const int flags = cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION;
     const unsigned char *bytes = static_cast<const unsigned char *>(data);
     if (size == 0 || size > INT_MAX) return cv::Mat();
-    if (size > sizeof png_signature && !memcmp(bytes, png_signature, sizeof png_signature))
-        return cv::imdecode(without_profile(bytes, size), flags);
+    if (is_png(bytes, size)) return cv::imdecode(without_profile(bytes, size), flags);
     return cv::imdecode(cv::Mat(1, (int)size, CV_8U, const_cast<void *>(data)), flags);
 }
 
@@ -106,7 +127,7 @@ bool image_read(struct image *image, const char *path, struct error *err)
     return guarded(err, ERR_INPUT, [&] {
         prepare();
         if (!file_exists(path)) return error_at(err, ERR_INPUT, path, 0, 0, "does not exist");
-        if (is_png(path)) {
+        if (is_png_or_jpeg(path)) {
             char *data;
             size_t size;
             if (!file_read(&data, &size, path, err)) return false;
@@ -116,7 +137,6 @@ bool image_read(struct image *image, const char *path, struct error *err)
         }
         cv::Mat mat = cv::imread(path, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
         if (mat.empty()) return error_at(err, ERR_INPUT, path, 0, 0, "is not an image that can be read (PNG, JPEG, TIFF or EXR), or is truncated");
-        if (ends_early(path)) return error_at(err, ERR_INPUT, path, 0, 0, "is truncated: the JPEG has no end marker");
         return image_from_mat(image, mat, path, err);
     });
 }
@@ -125,6 +145,8 @@ bool image_decode(struct image *image, const void *data, size_t size, const char
 {
     return guarded(err, ERR_INPUT, [&] {
         prepare();
+        if (ends_early(static_cast<const unsigned char *>(data), size))
+            return error_at(err, ERR_INPUT, path, 0, 0, "is truncated: its end is missing");
         cv::Mat mat = decode(data, size);
         if (mat.empty()) return error_at(err, ERR_INPUT, path, 0, 0, "is not an image that can be read (PNG, JPEG, TIFF or EXR), or is truncated");
         return image_from_mat(image, mat, path, err);
