@@ -181,6 +181,13 @@ for signal in Ctrl-C INT TERM; do
         'stopped; nothing is lost: the same command goes on from here'
     check "stopped while generating by $signal: an empty folder is not left" test ! -e early
 done
+rm -f at-work
+"$staffage" run many.yaml -o early >log 2>&1 &
+pid=$!
+until [ -s at-work ] || ! kill -0 $pid 2>/dev/null; do sleep 0.05; done
+kill -KILL "$(cat at-work)"
+wait $pid
+check "killed by somebody else, as when memory runs out: the signal is told" says '^staffage: staffage-gen was ended by signal 9$'
 mkdir tmp
 TMPDIR=$work/tmp
 export TMPDIR
