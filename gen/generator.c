@@ -217,13 +217,21 @@ static char *given_text(const struct generator *g)
     return string_format("light: exposure R %.3f G %.3f B %.3f is given, and taken\n", k[0], k[1], k[2]);
 }
 
+/* Is the exposure that of the estimate's ground? Wet ground mirrors light that the estimate does not count. */
+static bool fits_to_ground(const struct generator *g)
+{
+    return g->estimated && !g->scene->exposure_given && g->scene->wet.reflection <= 0;
+}
+
 char *generator_light_text(const struct generator *g)
 {
     struct run_facts facts = run_facts(g);
     double radiance[3];
     run_ground_radiance(radiance, &facts);
     char *north = north_text(g->scene), *light = g->estimated ? light_estimate_text(&g->estimate, radiance) : string_format("%s", "");
-    char *given = given_text(g), *text = north && light && given ? string_format("%s%s%s", north, light, given) : NULL;
+    char *given = given_text(g), *doubt = fits_to_ground(g) ? light_estimate_doubt(&g->estimate, radiance) : string_format("%s", "");
+    char *text = north && light && given && doubt ? string_format("%s%s%s%s", north, light, given, doubt) : NULL;
+    free(doubt);
     free(north);
     free(light);
     free(given);

@@ -48,6 +48,8 @@ void light_estimate_apply(struct scene *scene, const struct light_estimate *esti
 
 /* A few lines for people, with a newline each; the caller frees. In: radiance of the lit ground in the model (3), for the exposure */
 char *light_estimate_text(const struct light_estimate *estimate, const double ground_radiance[3]);
+/* A warning where the ground can hardly be as dark as it is said to be, for an exposure that is fitted to it; "": it can. NULL when memory ends. */
+char *light_estimate_doubt(const struct light_estimate *estimate, const double ground_radiance[3]);
 /* The same for run.json; NULL when memory ends. */
 json_t *light_estimate_json(const struct light_estimate *estimate, const double ground_radiance[3]);
 

@@ -70,10 +70,13 @@ static char *check_text(const struct light_estimate *e)
 }
 
 /* What is white and in the open is seldom burnt out by more: in its photographs a camera keeps most of what there is. */
-static char *albedo_text(double exposure)
+char *light_estimate_doubt(const struct light_estimate *e, const double ground_radiance[3])
 {
     static const double doubtful = 2;
-    if (exposure < doubtful) return string_format("%s", "");
+    double k[3];
+    for (int c = 0; c < 3; c++) k[c] = exposure_of(e, ground_radiance, c);
+    double exposure = luminance_of(k);
+    if (exposure <= doubtful) return string_format("%s", "");
     return string_format("light: warning: what is white would be %.1f times as bright in the open as the photograph can show, and so will be what is "
                          "put in: ground.albedo may be too low (concrete has 0.25 to 0.35, worn asphalt 0.12 to 0.2)\n", exposure);
 }
@@ -86,9 +89,8 @@ static char *exposure_text(const struct light_estimate *e, const double radiance
         k[c] = exposure_of(e, radiance, c);
         sigma[c] = k[c] * e->lit_sigma[c] / e->lit[c];
     }
-    char *exposure = triple_text(k, sigma), *doubt = albedo_text(luminance_of(k));
-    char *text = exposure && doubt ? string_format("light: exposure %s, if ground.albedo is right\n%s", exposure, doubt) : NULL;
-    free(doubt);
+    char *exposure = triple_text(k, sigma);
+    char *text = exposure ? string_format("light: exposure %s, if ground.albedo is right\n", exposure) : NULL;
     free(exposure);
     return text;
 }

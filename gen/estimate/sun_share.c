@@ -360,3 +360,16 @@ bool sun_share_part(size_t count[TOLD_KINDS], const struct sun_share *share, str
     free(kind);
     return ok;
 }
+
+double sun_share_hangs_m(const struct sun_share *share, struct vec3 sun, const struct entity *entities, size_t n)
+{
+    static const double above_m = 0.1;
+    const struct plane *ground = &share->ground;
+    double most = 0;
+    for (size_t i = 0; i < n; i++) {
+        struct vec3 corner[8];
+        entity_corners(corner, &entities[i]);
+        for (int k = 0; k < 8; k++) most = fmax(most, vec3_dot(ground->normal, corner[k]) - ground->offset_m);
+    }
+    return (most + above_m) / vec3_dot(ground->normal, sun);
+}

@@ -4,6 +4,7 @@
 
 #include "gen/estimate/ground_shade.h"
 #include "gen/light/seen.h"
+#include "gen/world/entity.h"
 #include "gen/world/ground.h"
 #include "gen/world/receiver.h"
 #include "gen/world/static_mesh.h"
@@ -47,6 +48,9 @@ void sun_share_release(struct sun_share *share);
 enum told { TOLD_NOWHERE, TOLD_IN_PART, TOLD, TOLD_KINDS };
 /* Out: count of each, in this order; without a map all are of the first */
 bool sun_share_part(size_t count[TOLD_KINDS], const struct sun_share *share, struct static_cut *cut, struct vec3 towards_sun, struct error *err);
+
+/* For POV-Ray the map hangs so far up the sun's rays from its ground: above all entities. */
+double sun_share_hangs_m(const struct sun_share *share, struct vec3 towards_sun, const struct entity *entities, size_t n);
 
 /* At world x, y of the plane, by the map alone: 0 to 1. */
 double sun_share_at(const struct sun_share *share, struct vec2 at_m);

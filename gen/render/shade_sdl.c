@@ -5,22 +5,6 @@
 #include <math.h>
 
 enum { TILE = 8 }; /* texels along the side of a tile */
-#define ABOVE_M 0.1
-
-/* How high above the ground the highest corner of an entity's box is. */
-static double height_of(const struct entity *entities, size_t n, const struct plane *ground)
-{
-    double most = 0;
-    for (size_t i = 0; i < n; i++) {
-        const struct model *model = entities[i].model;
-        for (int k = 0; k < 8; k++) {
-            struct vec3 corner = vec3(k & 1 ? model->max_m.x : model->min_m.x, k & 2 ? model->max_m.y : model->min_m.y,
-                                      k & 4 ? model->max_m.z : model->min_m.z);
-            most = fmax(most, vec3_dot(ground->normal, pose_apply(entities[i].world_from_entity, corner)) - ground->offset_m);
-        }
-    }
-    return most;
-}
 
 /* Is there shade in it, or so near that it reaches in between texels? */
 static bool is_shaded(const struct image *map, int column, int row)
@@ -82,7 +66,7 @@ void shade_sdl(struct sdl *sdl, const struct sun_share *share, const char *map, 
 {
     const struct plane *ground = &share->ground;
     struct vec2 low = share->low_m, high = share->high_m;
-    double along = (height_of(entities, n, ground) + ABOVE_M) / vec3_dot(ground->normal, sun);
+    double along = sun_share_hangs_m(share, sun, entities, n);
     struct vec3 corner = vec3(low.x, low.y, plane_height(ground, low.x, low.y));
     sdl_declare_string(sdl, "Sun_Share", map);
     sdl_declare_vector(sdl, "Sun_Share_Corner", vec3_add(corner, vec3_scale(sun, along)));

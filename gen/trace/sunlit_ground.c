@@ -24,9 +24,11 @@ static struct vec3 map_corner(const struct sun_share *share, double x, double y)
 }
 
 /* Shade that the photograph tells of hangs above all entities. Between texels it reaches into the next ones. */
-static void add_map(struct sun_blockers *blockers, const struct sun_share *share)
+static void add_map(struct sun_blockers *blockers, const struct sunlit_input *in)
 {
+    const struct sun_share *share = in->share;
     const struct image *map = &share->map;
+    double up = sun_share_hangs_m(share, in->towards_sun, in->entities, in->entity_count);
     for (int y = 0; y < map->height_px; y++)
         for (int x = 0; x < map->width_px; x++) {
             int from = x;
@@ -34,8 +36,8 @@ static void add_map(struct sun_blockers *blockers, const struct sun_share *share
             if (x == from) continue;
             struct vec3 corner[4];
             for (int k = 0; k < 4; k++) corner[k] = map_corner(share, k & 1 ? x + 1 : from - 1, k & 2 ? y + 2 : y - 1);
-            sun_blockers_add_everywhere(blockers, corner);
-            sun_blockers_add_everywhere(blockers, corner + 1);
+            sun_blockers_add_above(blockers, corner, up);
+            sun_blockers_add_above(blockers, corner + 1, up);
         }
 }
 
@@ -58,7 +60,7 @@ bool sunlit_ground_find(struct shaded_ground *ground, const struct sunlit_input 
     if (!ground->triangles) return true;
     bool ok = sun_blockers_create(&blockers, in->towards_sun, ground->position_m, ground->vertices, err) &&
               sun_blockers_add(blockers, pose_identity(), shades->position_m, shades->vertices, shades->triangle, shades->triangles, err);
-    if (ok && in->share && in->share->map.data) add_map(blockers, in->share);
+    if (ok && in->share && in->share->map.data) add_map(blockers, in);
     for (size_t i = 0; ok && i < ground->triangles; i++) sunlit[i].without = is_sunlit(ground, i, blockers);
     ok = ok && add_entities(blockers, in->entities, in->entity_count, err);
     for (size_t i = 0; ok && i < ground->triangles; i++) sunlit[i].with = is_sunlit(ground, i, blockers);

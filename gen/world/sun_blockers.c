@@ -8,6 +8,7 @@
 
 #define CELL_M 0.05
 #define CELLS_MAX 1024 /* along a side */
+static const double spread = 1.4143 * SUN_RADIUS_RAD; /* of penumbra, by the distance: to the corners of a square round the disc */
 
 struct sun_blockers {
     struct vec3 u, v, up;    /* across the rays, and along them towards the sun */
@@ -103,7 +104,6 @@ static void mark(struct sun_blockers *b, const struct span *s, double margin_m, 
 bool sun_blockers_add(struct sun_blockers *b, struct pose world_from_mesh, const float (*position_m)[3], size_t vertices,
                       const uint32_t (*triangle)[3], size_t triangles, struct error *err)
 {
-    const double spread = sqrt(2) * tan(SUN_RADIUS_RAD); /* to the corners of a square round the disc */
     struct vec3 *p = malloc((vertices + 1) * sizeof *p);
     if (!p) return error_set(err, ERR_MEMORY, "no memory for what shades the ground");
     for (size_t i = 0; i < vertices; i++) {
@@ -120,10 +120,10 @@ bool sun_blockers_add(struct sun_blockers *b, struct pose world_from_mesh, const
     return true;
 }
 
-void sun_blockers_add_everywhere(struct sun_blockers *b, const struct vec3 corner_m[3])
+void sun_blockers_add_above(struct sun_blockers *b, const struct vec3 corner_m[3], double up_m)
 {
     struct span s = span_of(b, corner_m, 3);
-    mark(b, &s, 0, INFINITY);
+    mark(b, &s, spread * (s.up[1] + up_m - b->lowest_m), INFINITY);
 }
 
 bool sun_blockers_reach(const struct sun_blockers *b, const struct vec3 corner_m[3])

@@ -21,8 +21,8 @@ void sun_blockers_destroy(struct sun_blockers *blockers);
 /* What stands somewhere. In: position_m (vertices,3), triangle (triangles,3). Err: ERR_MEMORY */
 bool sun_blockers_add(struct sun_blockers *blockers, struct pose world_from_mesh, const float (*position_m)[3], size_t vertices,
                       const uint32_t (*triangle)[3], size_t triangles, struct error *err);
-/* A triangle whose place along the sun's rays does not count: it is in the way of all that lies behind or before it. */
-void sun_blockers_add_everywhere(struct sun_blockers *blockers, const struct vec3 corner_m[3]);
+/* A triangle that hangs above all the ground, so far up the sun's rays from where it is given. */
+void sun_blockers_add_above(struct sun_blockers *blockers, const struct vec3 corner_m[3], double up_m);
 
 /* May one of them keep part of the sun's disc from a point of this triangle of the ground? False only where none does. */
 bool sun_blockers_reach(const struct sun_blockers *blockers, const struct vec3 corner_m[3]);

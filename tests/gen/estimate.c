@@ -44,7 +44,7 @@ static void is_near(const struct light_estimate *e, const double want[3], double
 static void check_albedo(const struct light_estimate *e, double albedo, bool doubted)
 {
     const double radiance[3] = { albedo, albedo, albedo };
-    char *text = light_estimate_text(e, radiance);
+    char *text = light_estimate_doubt(e, radiance);
     OK(text && !strstr(text, "ground.albedo may be too low") == !doubted, "an albedo of %.2f is%s doubted", albedo, doubted ? "" : " not");
     free(text);
 }

@@ -85,18 +85,21 @@ static void check(struct vec3 sun)
     sun_blockers_destroy(blockers);
 }
 
-static void check_everywhere(void)
+static void check_above(void)
 {
     struct error err = ERROR_NONE;
     struct sun_blockers *blockers = NULL;
     const struct vec3 sun = vec3_unit(vec3(1, 0, 1)), points[] = { vec3(0, 0, 0), vec3(10, 10, 0) };
     const struct vec3 sheet[3] = { vec3(4, 4, 0), vec3(6, 4, 0), vec3(4, 6, 0) }, below[3] = { vec3(4.5, 4.5, 0), vec3(4.6, 4.5, 0), vec3(4.5, 4.6, 0) };
-    const struct vec3 beside[3] = { vec3(8, 8, 0), vec3(8.1, 8, 0), vec3(8, 8.1, 0) };
+    const struct vec3 beside[3] = { vec3(8, 8, 0), vec3(8.1, 8, 0), vec3(8, 8.1, 0) }, far[3] = { vec3(0.1, 0.1, 0), vec3(0.2, 0.1, 0), vec3(0.1, 0.2, 0) };
     if (!OK(sun_blockers_create(&blockers, sun, points, 2, &err), "a sheet %s", err.text)) return;
     OK(!sun_blockers_reach(blockers, below), "without anything all is free");
-    sun_blockers_add_everywhere(blockers, sheet);
-    OK(sun_blockers_reach(blockers, below), "on the ground itself it is in the way");
+    sun_blockers_add_above(blockers, sheet, 0.1);
+    OK(sun_blockers_reach(blockers, below), "right above the ground it is in the way");
     OK(!sun_blockers_reach(blockers, beside), "but not beside");
+    sun_blockers_add_above(blockers, sheet, 350);
+    OK(sun_blockers_reach(blockers, beside), "unless it hangs so high that its penumbra is wide");
+    OK(!sun_blockers_reach(blockers, far), "and that of the sun ends");
     sun_blockers_destroy(blockers);
 }
 
@@ -106,6 +109,6 @@ int main(void)
     check(vec3_unit(vec3(0.4, -0.3, 1.2)));
     check(vec3_unit(vec3(-0.8, 0.5, 0.25)));
     check(vec3(0, 0, 1));
-    check_everywhere();
+    check_above();
     return tap_done();
 }
