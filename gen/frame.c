@@ -94,7 +94,7 @@ static bool set_stage(struct frame *f, struct error *err)
     for (size_t i = 0; i < f->moment.n; i++) {
         struct plane ground = frame_local_ground(f, &f->moment.entities[i]);
         if (!receiver_create(&f->receivers[i], &f->moment.entities[i], &ground, f->context->light,
-                             shaded_around(f, &f->moment.entities[i]), err))
+                             shaded_around(f, &f->moment.entities[i]), s->wet.reflection > 0 ? &f->shot->world_from_camera.translation : NULL, err))
             return false;
     }
     struct vec3 min_m, max_m = { 0, 0, 0 };

@@ -134,10 +134,18 @@ static bool estimate_light(struct generator *g, struct error *err)
     return true;
 }
 
+/* Where the real road glitters. */
+static bool warn_of_glint(struct generator *g, struct error *err)
+{
+    return g->scene->wet.reflection <= 0 || !g->light.has_sun ||
+           stage_warn(g->stage, string_format("ground.reflection: the sun's own glint on wet ground is left out: against the light the road is too dark, "
+                                              "and nothing shades its glitter"), err);
+}
+
 static bool warn_of_sun(struct generator *g, struct error *err)
 {
     char *text;
-    return map_sun_doubt(&text, &g->light, g->scene, err) && (!text || stage_warn(g->stage, text, err)) &&
+    return warn_of_glint(g, err) && map_sun_doubt(&text, &g->light, g->scene, err) && (!text || stage_warn(g->stage, text, err)) &&
            skyline_doubt(&text, &g->light, g->scene, err) && (!text || stage_warn(g->stage, text, err));
 }
 

@@ -43,7 +43,7 @@ void wet_rays(struct wet_rays *rays, const struct wet *wet, struct vec3 normal, 
         rays->weight[rays->n++] = fresnel(wet, cosine);
         return;
     }
-    /* x away from the eye, so that neighbours' rays are alike. */
+    /* x towards the eye, so that neighbours' rays are alike. */
     struct vec3 level = vec3_sub(to_eye, vec3_scale(normal, cosine));
     struct vec3 x = vec3_norm(level) > 1e-9 ? vec3_unit(level) : vec3_unit(vec3_cross(normal, vec3(0.36, 0.48, 0.8))), y = vec3_cross(normal, x);
     struct vec3 v = vec3(vec3_dot(to_eye, x), vec3_dot(to_eye, y), cosine);

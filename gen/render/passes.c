@@ -142,7 +142,7 @@ static void write_ground(struct sdl *sdl, const struct passes *p, bool object)
     const struct scene *scene = p->scene;
     const struct pass_surroundings *around = object ? p->surroundings : NULL;
     sdl_declare_color(sdl, "Ground_Albedo", around ? around->ground_albedo : scene->ground_albedo);
-    sdl_declare_number(sdl, "Ground_Reflection", object || is_mirror(scene) ? scene->wet.reflection : 0);
+    sdl_declare_number(sdl, "Ground_Reflection", is_mirror(scene) ? scene->wet.reflection : 0);
     sdl_include(sdl, "ground.inc");
     sdl_declare_number(sdl, "Has_Place", p->place_include != NULL);
     if (p->shades_include) sdl_include(sdl, p->shades_include);

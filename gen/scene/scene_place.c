@@ -1,5 +1,6 @@
 #include "gen/scene/scene_keys.h"
 #include "gen/scene/scene_read.h"
+#include "lib/luminance.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -41,9 +42,12 @@ bool scene_read_static(const struct reading *r, const struct yaml_node *root)
     return scene_copy_path(r, &scene->static_.mesh, yaml_get(node, "mesh"));
 }
 
+#define WET_ALBEDO_MIN 0.005
+
 bool scene_read_ground(const struct reading *r, const struct yaml_node *node)
 {
     struct scene *scene = r->scene;
+    static const char *const of_wet[] = { "roughness", NULL };
     const struct yaml_node *plane = yaml_get(node, "plane"), *points = yaml_get(node, "points_m");
     scene_read_color(scene->ground_albedo, yaml_get(node, "albedo"));
     scene->wet = (struct wet){ number_at(node, "reflection"), number_at(node, "roughness") };
@@ -52,9 +56,13 @@ bool scene_read_ground(const struct reading *r, const struct yaml_node *node)
         if (other) return FAIL(r, other, "ground: the static mesh is the ground: only albedo has a meaning here");
         if (scene->wet.reflection > 0)
             return FAIL(r, yaml_get(node, "reflection"), "ground.reflection: goes with a plane, not with a static mesh");
+        if (!scene_refuse_given(r, node, of_wet, "ground", "goes with a reflection")) return false;
         scene->ground = (struct plane){ vec3(0, 0, 1), 0 };
         return true;
     }
+    if (scene->wet.reflection <= 0 && !scene_refuse_given(r, node, of_wet, "ground", "goes with a reflection")) return false;
+    if (scene->wet.reflection > 0 && luminance_of(scene->ground_albedo) < WET_ALBEDO_MIN)
+        return FAIL(r, yaml_get(node, "albedo"), "ground.albedo: wet ground needs some light of its own: the darkest asphalt has 0.02");
     if (points) return read_points(r, points);
     if (!plane && !yaml_get(node, "height_m"))
         return FAIL(r, node, "ground: one of height_m, plane, points_m is missing (or a static mesh is)");

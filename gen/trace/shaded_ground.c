@@ -10,7 +10,6 @@
  * of pixels can, and edges are not parted in their very middle. */
 #define LATTICE_RAD 0.3
 #define PARTED_AT 0.48
-#define ALBEDO_MIN 0.005 /* of which what is mirrored can still be told */
 
 /* Between an edge's ends, the share of the sky's light that entities leave may differ by so much: more where it is bright. */
 #define STEP 0.04
@@ -226,11 +225,12 @@ static double share_left(const struct sky_seen *seen)
     return all > 0 ? luminance_of(seen->with) / all : 1;
 }
 
+/* As if it were more of the light: of that the albedo gives back as much, in all, and in its own colour. */
 static void add_mirrored(struct sky_seen *sky, const struct sky_sight *sight, struct vec3 p, struct vec3 normal, const struct shaded_ground_detail *detail)
 {
-    struct sky_seen mirrored = sky_sight_mirrored(sight, p, normal, detail->eye_m, &detail->wet);
+    struct sky_seen mirrored = sky_sight_mirrored(sight, &detail->wet, p, normal, detail->eye_m, sky->with);
+    double albedo = luminance_of(detail->albedo);
     for (int c = 0; c < 3; c++) {
-        double albedo = fmax(detail->albedo[c], ALBEDO_MIN);
         sky->without[c] += mirrored.without[c] / albedo;
         sky->with[c] += mirrored.with[c] / albedo;
     }

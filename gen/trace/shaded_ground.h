@@ -38,7 +38,7 @@ bool shaded_ground_pick(struct shaded_ground *part, const struct shaded_ground *
 /* Light the vertices, what is wet with what it mirrors to the eye, too, as if it were light that the albedo gives back; and halve edges between whose ends the entities' shade changes, if they can be seen, down to
  * fine_px as seen from an eye whose pixels are pixel_rad wide.
  * Err: ERR_MEMORY */
-struct shaded_ground_detail { struct vec3 eye_m; double pixel_rad, fine_px; struct wet wet; double albedo[3]; };
+struct shaded_ground_detail { struct vec3 eye_m; double pixel_rad, fine_px; struct wet wet; double albedo[3]; /* where wet, above 0 */ };
 bool shaded_ground_shade(struct shaded_ground *ground, const struct sky_sight *sight, struct shaded_ground_detail detail,
                       struct error *err);
 

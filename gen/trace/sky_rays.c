@@ -44,27 +44,28 @@ void sky_ray_color(double color[3], const struct sky_rays *rays, size_t ray, con
     for (int c = 0; c < 3; c++) color[c] = rays->solid_angle[ray] * (double)rgb[c];
 }
 
-/* By so much the radiance round is brought to what level ground receives of the sky. */
-static void match_sky(double gain[3], const struct sky_rays *rays, const struct image *radiance)
+void sky_round_gain(double gain[3], const struct sky_rays *rays, const struct sky_round *round)
 {
-    double sky[3] = { 0, 0, 0 }, round[3] = { 0, 0, 0 }, color[3];
+    double sky[3] = { 0, 0, 0 }, there[3] = { 0, 0, 0 }, color[3];
+    gain[0] = gain[1] = gain[2] = 1;
+    if (!round->radiance || round->place) return;
     for (size_t i = 0; i < rays->n; i++) {
-        sky_ray_color(color, rays, i, radiance);
+        sky_ray_color(color, rays, i, round->radiance);
         for (int c = 0; c < 3; c++) {
             sky[c] += rays->direction[i].z * rays->color[i][c];
-            round[c] += rays->direction[i].z * color[c];
+            there[c] += rays->direction[i].z * color[c];
         }
     }
-    for (int c = 0; c < 3; c++) gain[c] = sky[c] / fmax(round[c], 1e-9);
+    for (int c = 0; c < 3; c++) gain[c] = sky[c] / fmax(there[c], 1e-9);
 }
 
 void sky_rays_round(double (*color)[3], const struct sky_rays *rays, const struct sky_round *round, const struct receiver *receiver,
                     struct vec3 from)
 {
-    double gain[3] = { 1, 1, 1 };
+    double gain[3];
     memcpy(color, rays->color, rays->n * sizeof *color);
     if (!round->radiance) return;
-    if (!round->place) match_sky(gain, rays, round->radiance);
+    sky_round_gain(gain, rays, round);
     for (size_t i = 0; i < rays->n; i++) {
         struct vec3 d = rays->direction[i];
         double level = fmax(hypot(d.x, d.y), 1e-9);

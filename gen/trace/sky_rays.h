@@ -35,6 +35,9 @@ struct sky_round {
     const struct static_mesh *place; /* NULL: all that stands round is in the radiance, and level ground receives as much as of the sky */
 };
 
+/* By so much the radiance round is brought to what level ground receives of the sky, on a plane. */
+void sky_round_gain(double gain[3], const struct sky_rays *rays, const struct sky_round *round);
+
 /* Light beyond a receiver: from a point in it, what the place has farther off shines with the radiance round in its direction.
  * Out: color (n) as struct sky_rays */
 void sky_rays_round(double (*color)[3], const struct sky_rays *rays, const struct sky_round *round, const struct receiver *receiver,

@@ -35,6 +35,7 @@ struct sky_sight {
     struct vec3 *upward; /* (upward_count) by their cosine with up: what entities send may come from where the sky has little light */
     size_t upward_count;
     struct sky_round round;
+    double round_gain[3];
     const struct light *light;
     const struct sun_share *sun_share;
     bool *walled;               /* (rays) room for one point's: does the near place end them, farther than ROUGH_M, */
@@ -62,6 +63,7 @@ bool sky_sight_create(struct sky_sight **sight, const struct sky_sight_input *in
     s->upward_count = UPWARD * n;
     for (size_t i = 0; i < s->upward_count; i++) s->upward[i] = cosine_direction(i, s->upward_count);
     s->round = in->round;
+    sky_round_gain(s->round_gain, &s->rays, &s->round);
     s->light = in->light;
     s->sun_share = in->sun_share;
     *sight = s;
@@ -302,37 +304,61 @@ static void radiance_round(double rgb[3], const struct sky_sight *s, struct vec3
         return;
     }
     const float *radiance = sky_radiance(s->round.radiance, direction);
-    for (int c = 0; c < 3; c++) rgb[c] = (double)radiance[c];
+    for (int c = 0; c < 3; c++) rgb[c] = s->round_gain[c] * (double)radiance[c];
 }
 
-/* In/out: rgb  what comes along a ray to a point: past an entity, and from it. In: left  of the light on the ground there */
-static void pass_entity(double rgb[3], const struct blocker *b, struct vec3 ray, double left)
+/* The entity that a ray from the point meets first, farther than range_m. */
+static const struct blocker *meet_next(struct shape_point *next, const struct sky_sight *s, struct vec3 ray, double range_m)
 {
-    struct shape_point point;
-    struct vec3 direction = mat3_apply(b->entity_from_world.rotation, ray);
-    double own[3] = { 0, 0, 0 };
-    float past = 1;
-    shape_shade(b->shape, &past, b->from_m, &direction, 1);
-    if (!(past < 1)) return;
-    if (b->exitance && shape_meet(b->shape, &point, b->from_m, direction)) exitance_radiance(own, b->exitance, &point, direction, left);
-    for (int c = 0; c < 3; c++) rgb[c] += b->share * (1 - (double)past) * (own[c] - rgb[c]);
+    const struct blocker *nearest = NULL;
+    for (size_t k = 0; k < s->blocker_count; k++) {
+        const struct blocker *b = &s->blockers[k];
+        struct shape_point point;
+        if (!(b->share > 0) || !shape_meet(b->shape, &point, b->from_m, mat3_apply(b->entity_from_world.rotation, ray)) ||
+            point.range_m <= range_m || (nearest && point.range_m >= next->range_m))
+            continue;
+        nearest = b;
+        *next = point;
+    }
+    return nearest;
 }
 
-struct sky_seen sky_sight_mirrored(const struct sky_sight *s, struct vec3 p, struct vec3 normal, struct vec3 eye, const struct wet *wet)
+/* What comes along a ray past entities, and from them: the nearer before the farther. In: left  of the light on the ground there */
+static void look_along(double rgb[3], const struct sky_sight *s, struct vec3 ray, double left)
+{
+    double passes = 1, behind[3];
+    struct shape_point point = { .range_m = 0 };
+    const struct blocker *b;
+    radiance_round(behind, s, ray);
+    rgb[0] = rgb[1] = rgb[2] = 0;
+    while (passes > 0 && (b = meet_next(&point, s, ray, point.range_m))) {
+        struct vec3 direction = mat3_apply(b->entity_from_world.rotation, ray);
+        double own[3] = { 0, 0, 0 };
+        float past = 1;
+        shape_shade(b->shape, &past, b->from_m, &direction, 1);
+        double stops = b->share * (1 - (double)past);
+        if (b->exitance && stops > 0) exitance_radiance(own, b->exitance, &point, direction, left);
+        for (int c = 0; c < 3; c++) rgb[c] += passes * stops * own[c];
+        passes *= 1 - stops;
+    }
+    for (int c = 0; c < 3; c++) rgb[c] += passes * behind[c];
+}
+
+struct sky_seen sky_sight_mirrored(const struct sky_sight *s, const struct wet *wet, struct vec3 p, struct vec3 normal, struct vec3 eye,
+                                   const double with[3])
 {
     struct sky_seen seen = { { 0 }, { 0 } };
     struct wet_rays rays;
+    double left = left_of(s, with, p, normal), rgb[3];
     wet_rays(&rays, wet, normal, vec3_unit(vec3_sub(eye, p)), WET_RAYS_MAX);
     for (size_t k = 0; k < s->blocker_count; k++) {
         s->blockers[k].from_m = pose_apply(s->blockers[k].entity_from_world, p);
         s->blockers[k].share = receiver_share(s->blockers[k].receiver, p);
     }
     for (size_t i = 0; i < rays.n; i++) {
-        double rgb[3];
         radiance_round(rgb, s, rays.direction[i]);
         for (int c = 0; c < 3; c++) seen.without[c] += rays.weight[i] * rgb[c];
-        for (size_t k = 0; k < s->blocker_count; k++)
-            if (s->blockers[k].share > 0) pass_entity(rgb, &s->blockers[k], rays.direction[i], 1);
+        look_along(rgb, s, rays.direction[i], left);
         for (int c = 0; c < 3; c++) seen.with[c] += rays.weight[i] * rgb[c];
     }
     return seen;

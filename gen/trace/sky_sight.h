@@ -48,7 +48,9 @@ double sky_sight_sun(const struct sky_sight *sight, struct vec3 p_m);
 
 /* Not for several threads at once. */
 struct sky_seen sky_sight_at(const struct sky_sight *sight, struct vec3 p_m, struct vec3 normal);
-/* What wet ground mirrors to an eye, likewise; of a plane, for nothing near by of a place is looked for. */
-struct sky_seen sky_sight_mirrored(const struct sky_sight *sight, struct vec3 p_m, struct vec3 normal, struct vec3 eye_m, const struct wet *wet);
+/* Radiance that wet ground mirrors to an eye, likewise, but for the sun; of a plane, for nothing near by of a place is looked for.
+ * In: with  what the point receives, of sky_sight_at */
+struct sky_seen sky_sight_mirrored(const struct sky_sight *sight, const struct wet *wet, struct vec3 p_m, struct vec3 normal, struct vec3 eye_m,
+                                   const double with[3]);
 
 #endif

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-enum { ROUND = 12, POINTS_MAX = 8 * (ROUND + 1) };
+enum { ROUND = 12, POINTS_MAX = 8 * (2 * ROUND + 1) };
 
 /* A sun at the horizon casts shadows without end: beyond this they leave the scene. */
 static const double shadow_max_m = 60;
@@ -34,8 +34,25 @@ static size_t convex_hull(struct vec3 *hull, struct vec3 *points, size_t n)
     return k - 1;
 }
 
+/* Where an eye sees a corner mirrored in the ground, before it leaves the scene. */
+static struct vec3 mirrored_at(struct vec3 corner, struct vec3 eye, const struct plane *ground)
+{
+    double high = vec3_dot(ground->normal, corner) - ground->offset_m, eye_high = vec3_dot(ground->normal, eye) - ground->offset_m;
+    struct vec3 below = vec3_sub(eye, vec3_scale(ground->normal, 2 * eye_high)), way = vec3_sub(below, corner);
+    double length = high > 0 && eye_high > 0 ? vec3_norm(way) * high / (high + eye_high) : 0;
+    return vec3_add(corner, vec3_scale(vec3_unit(way), fmin(length, shadow_max_m)));
+}
+
+static void put_round(struct vec3 *points, size_t *n, struct vec3 middle, double radius_m)
+{
+    for (int k = 0; k < ROUND; k++) {
+        double angle = 2 * M_PI * k / ROUND;
+        points[(*n)++] = vec3_add(middle, vec3(radius_m * cos(angle), radius_m * sin(angle), 0));
+    }
+}
+
 bool receiver_create(struct receiver *receiver, const struct entity *entity, const struct plane *ground,
-                     const struct light *light, bool shaded, struct error *err)
+                     const struct light *light, bool shaded, const struct vec3 *eye, struct error *err)
 {
     struct vec3 corners[8], points[POINTS_MAX], hull[2 * POINTS_MAX];
     size_t n = 0;
@@ -43,10 +60,8 @@ bool receiver_create(struct receiver *receiver, const struct entity *entity, con
     /* Where the sun shines, the sky's share of the light is small, and so is what is taken of it. */
     double reach = (light->has_sun && !shaded ? 1.6 : 3.2) * (entity->model->max_m.z - entity->model->min_m.z);
     for (int i = 0; i < 8; i++) {
-        for (int k = 0; k < ROUND; k++) {
-            double angle = 2 * M_PI * k / ROUND;
-            points[n++] = vec3_add(corners[i], vec3(reach * cos(angle), reach * sin(angle), 0));
-        }
+        put_round(points, &n, corners[i], reach);
+        if (eye) put_round(points, &n, mirrored_at(corners[i], *eye, ground), reach / 2); /* past where it fades */
         if (!light->has_sun) continue;
         struct vec3 away = vec3_scale(light->sun_direction, -1), foot;
         if (!plane_intersect(ground, &foot, corners[i], away)) continue;

@@ -21,10 +21,10 @@ struct receiver {
 
 /* The ground around an entity as far as it takes away more than about a hundredth of the light
  * (3.2 times its height where only the sky lights it), together with its shadow in the sun.
- * In:  shaded: something keeps the sun from part of that ground
+ * In:  shaded: something keeps the sun from part of that ground; eye_m: sees the entity mirrored in it as well; NULL: it is dry
  * Err: ERR_MEMORY */
 bool receiver_create(struct receiver *receiver, const struct entity *entity, const struct plane *ground,
-                     const struct light *light, bool shaded, struct error *err);
+                     const struct light *light, bool shaded, const struct vec3 *eye_m, struct error *err);
 void receiver_release(struct receiver *receiver);
 /* Is a ground point within it, seen from above? */
 bool receiver_contains(const struct receiver *receiver, struct vec3 p_m);

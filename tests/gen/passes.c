@@ -107,7 +107,7 @@ int main(void)
         scene.sky = round ? SKY_OVERCAST : SKY_CLEAR;
         scene.sun = round ? SUN_NONE : SUN_GIVEN;
         if (!OK(light_create(&light, &scene, &err) && sky_map_write(sky_map, out, &light, &err) &&
-                receiver_create(&receiver, &entity, &scene.ground, &light, false, &err), "%s: light and receivers", name))
+                receiver_create(&receiver, &entity, &scene.ground, &light, false, NULL, &err), "%s: light and receivers", name))
             return tap_done();
         struct passes p = { .scene = &scene, .sky_map = sky_map, .light = &light, .world_from_camera = world_from_camera,
                             .entities = &entity, .includes = &include, .entity_count = 1, .ground = scene.ground,
@@ -194,7 +194,7 @@ int main(void)
     scene.ground.normal = vec3_unit(vec3(0.2, 0.1, 1));
     entity.world_from_entity = entity_stand(&scene.ground, vec3(0, 0, 0), 0.4);
     if (OK(light_create(&light, &scene, &err) && sky_map_write(sky_map, out, &light, &err) &&
-           receiver_create(&receiver, &entity, &scene.ground, &light, false, &err), "a slope: light and receivers")) {
+           receiver_create(&receiver, &entity, &scene.ground, &light, false, NULL, &err), "a slope: light and receivers")) {
         struct passes p = { .scene = &scene, .sky_map = sky_map, .light = &light, .world_from_camera = world_from_camera,
                             .entities = &entity, .includes = &include, .entity_count = 1, .ground = scene.ground,
                             .receivers = &ground };

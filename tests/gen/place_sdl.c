@@ -39,7 +39,7 @@ static bool render(struct image pass[3], struct scene *scene, const struct light
                         .place_include = "frames/place.inc", .shades_include = "frames/shades.inc" };
     char *folder = string_format("%s/frames", out), *file = string_format("%s/place.inc", folder);
     char *shades_path = string_format("%s/shades.inc", folder);
-    bool ok = receiver_create(&receiver, entity, &flat, light, x < 3, &err) &&
+    bool ok = receiver_create(&receiver, entity, &flat, light, x < 3, NULL, &err) &&
               surroundings_create(&around, &receiver, entity, 1, light, 3, &err) &&
               static_mesh_cut(mesh, &receivers, around.receivers, around.n, &err) &&
               static_mesh_cut(mesh, &near, around.shades, around.shade_count, &err) &&

@@ -5,6 +5,8 @@
 #include "gen/render/passes.h"
 #include "gen/trace/shaded_ground.h"
 
+#include <string.h>
+
 /* In/out: ground: what passes->receivers is to be, unlit
  * In:     receivers of passes' entities; place: as struct sky_sight_input's near */
 static bool shade_ground(struct shaded_ground *ground, const struct passes *passes, const struct receiver *receivers,

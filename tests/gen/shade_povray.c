@@ -183,7 +183,7 @@ int main(void)
     if (!OK(image_init(&even, 8, 8, 3, PIXEL_U8, &err), "even ground")) return tap_done();
     fill_px(&even, 0, 0, 8, 8, 0.3, 0.3, 0.3);
     bool ok = folder_make(folder, &err) && image_write(map, &around.sun_share.map, &err) && image_write(orthophoto, &even, &err) && light_create(&light, &scene, &err) &&
-              sky_map_write(sky_map, out, &light, &err) && receiver_create(&receiver, &entity, &scene.ground, &light, false, &err) &&
+              sky_map_write(sky_map, out, &light, &err) && receiver_create(&receiver, &entity, &scene.ground, &light, false, NULL, &err) &&
               view_cover(&p.view, &camera, (struct rect){ 0, 0, WIDTH, HEIGHT }, 1, &err) &&
               shaded_ground_of_plane(&ground, &scene.ground, &receiver, 1, &err) && shade_ground(&ground, &p, &receiver, NULL, &err) &&
               model_include_write(&include, NULL, out, &entity, &err);

@@ -52,7 +52,7 @@ static bool frame_light(struct frame *f, const struct light *light, const struct
     const struct shaded_ground_detail detail = { { -10, 0, 8 }, 1e-3, settings.fine_px, { 0, 0 }, { 0 } };
     bool ok = sky_sight_create(&f->sight, &(struct sky_sight_input){ .light = light, .directions = settings.sky_directions }, err);
     for (f->n = 0; ok && f->n < n; f->n++)
-        ok = receiver_create(&f->receivers[f->n], &entities[f->n], &flat, light, false, err) &&
+        ok = receiver_create(&f->receivers[f->n], &entities[f->n], &flat, light, false, NULL, err) &&
              sky_sight_add(f->sight, tracer, &entities[f->n], &f->receivers[f->n], err);
     return ok && shaded_ground_of_plane(&f->ground, &flat, f->receivers, n, err) && shaded_ground_shade(&f->ground, f->sight, detail, err);
 }
@@ -91,10 +91,11 @@ static double share_at(const struct shaded_ground *g, double x, double y)
 static void wet_before_a_wall(const struct sky_sight *sight)
 {
     const struct wet film = { 0.05, 0.05 }, road = { 0.05, 0.4 };
+    const double dark[3] = { 0 };
     double before = 0, rises = 0;
     for (double d = 0.5; d < 4; d += 0.5) {
         struct vec3 p = vec3(d, 3, 0), eye = vec3(d + 20, 3, 20);
-        struct sky_seen sharp = sky_sight_mirrored(sight, p, flat.normal, eye, &film), soft = sky_sight_mirrored(sight, p, flat.normal, eye, &road);
+        struct sky_seen sharp = sky_sight_mirrored(sight, &film, p, flat.normal, eye, dark), soft = sky_sight_mirrored(sight, &road, p, flat.normal, eye, dark);
         if (d != 2) NEAR(share_of(sharp), d > 2, 0.02, "%.1f m before the wall a film of water mirrors %s", d, d > 2 ? "the sky" : "it");
         double left = share_of(soft);
         rises = d > 0.5 ? fmax(rises, left - before) : 0;
@@ -103,8 +104,52 @@ static void wet_before_a_wall(const struct sky_sight *sight)
     }
     OK(rises < 0.35, "and no step: %.2f at most in half a metre", rises);
     struct vec3 p = vec3(3, 3, 0), eye = vec3(23, 3, 20);
-    double sky = sky_sight_at(sight, p, flat.normal).without[1], mirrored = sky_sight_mirrored(sight, p, flat.normal, eye, &film).without[1];
+    double sky = sky_sight_at(sight, p, flat.normal).without[1], mirrored = sky_sight_mirrored(sight, &film, p, flat.normal, eye, dark).without[1];
     NEAR(mirrored / sky, 0.05 + 0.95 * pow(1 - sqrt(0.5), 5), 0.0005, "of an even sky Fresnel's share");
+}
+
+/* Of two that stand in a line the nearer hides the farther, whichever is named first. */
+static void wet_before_two(const struct light *light, const struct tracer *tracer)
+{
+    static const struct vec2 far[] = { { -500, -500 }, { 500, -500 }, { 500, 500 }, { -500, 500 } };
+    struct vec3 corner[4];
+    for (int i = 0; i < 4; i++) corner[i] = vec3(far[i].x, far[i].y, 0);
+    const struct receiver everywhere = { corner, 4, 1 };
+    const struct wet film = { 0.05, 0.05 };
+    const double lit[3] = { 1, 1, 1 };
+    struct error err = ERROR_NONE;
+    struct solid wall;
+    solid_box(&wall, 50, 0.01, 2);
+    struct entity near = stand(1, &wall, 0, 0, 0), behind = stand(2, &wall, -3, 0, 0);
+    near.has_color = behind.has_color = true;
+    near.color[0] = behind.color[2] = 0.5;
+    wall.material.kind = FINISH_PAINT;
+    for (int turn = 0; turn < 2; turn++) {
+        struct sky_sight *sight = NULL;
+        struct sky_sight_input in = { .light = light, .directions = 128, .round.radiance = &light->sky };
+        if (!OK(sky_sight_create(&sight, &in, &err) && sky_sight_add(sight, tracer, turn ? &behind : &near, &everywhere, &err) &&
+                sky_sight_add(sight, tracer, turn ? &near : &behind, &everywhere, &err), "a red wall before a blue one %s", err.text)) break;
+        struct sky_seen seen = sky_sight_mirrored(sight, &film, vec3(1, 0, 0), flat.normal, vec3(21, 0, 20), lit);
+        OK(seen.with[0] > 5 * seen.with[2], "the red one is mirrored, if it is named %s: R %.4f B %.4f", turn ? "last" : "first", seen.with[0], seen.with[2]);
+        sky_sight_destroy(sight);
+    }
+    solid_free(&wall);
+}
+
+/* An eye 3 m high and 30 m away sees the roof of a car mirrored far before it. */
+static void mirrored_in_receiver(const struct light *light, const struct solid *body)
+{
+    struct error err = ERROR_NONE;
+    struct receiver dry = { 0 }, wet = { 0 };
+    struct entity entity = stand(1, body, 0, 0, 0);
+    const struct vec3 eye = vec3(30, 0, 3), roof = vec3(0.9, 0, 1.4);
+    if (!OK(receiver_create(&dry, &entity, &flat, light, false, NULL, &err) && receiver_create(&wet, &entity, &flat, light, false, &eye, &err),
+            "ground round a car, dry and wet")) return;
+    struct vec3 there = vec3(roof.x + (eye.x - roof.x) * roof.z / (roof.z + eye.z), 0, 0);
+    NEAR(receiver_share(&dry, there), 0, 1e-9, "dry, it takes nothing from the ground %.1f m away", there.x);
+    NEAR(receiver_share(&wet, there), 1, 1e-9, "wet, it is mirrored there");
+    receiver_release(&dry);
+    receiver_release(&wet);
 }
 
 /* An even sky and an endless wall: of the ground's light at a distance d it takes (1 - d / sqrt(d^2 + h^2)) / 2. */
@@ -266,6 +311,8 @@ int main(void)
             "a car, clouds and a clear sky"))
         return tap_done();
     beside_a_wall(tracer);
+    wet_before_two(&overcast, tracer);
+    mirrored_in_receiver(&overcast, &body);
     contact_shadow(&overcast, tracer, &body);
     contact_shadow(&clear, tracer, &body);
     others_stay(&overcast, tracer, &body);

@@ -16,8 +16,8 @@ struct around {
 static bool look_around(struct around *a, const struct entity entity[2], const struct light *light)
 {
     struct error err = ERROR_NONE;
-    return receiver_create(&a->receiver[0], &entity[0], &ground, light, false, &err) &&
-           receiver_create(&a->receiver[1], &entity[1], &ground, light, false, &err) &&
+    return receiver_create(&a->receiver[0], &entity[0], &ground, light, false, NULL, &err) &&
+           receiver_create(&a->receiver[1], &entity[1], &ground, light, false, NULL, &err) &&
            surroundings_create(&a->s, a->receiver, entity, 2, light, top_m, &err);
 }
 

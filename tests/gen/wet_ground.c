@@ -56,7 +56,7 @@ static void check(double roughness)
     if (!OK(mkdtemp(out) != NULL, "a folder to render in")) return;
     char *folder = string_format("%s/frames", out), *path = string_format("%s/plane.exr", folder);
     bool ok = light_create(&light, &scene, &err) && sky_map_write(sky_map, out, &light, &err) &&
-              receiver_create(&receiver, &entity, &scene.ground, &light, false, &err) &&
+              receiver_create(&receiver, &entity, &scene.ground, &light, false, NULL, &err) &&
               view_cover(&p.view, &camera, (struct rect){ 0, 0, WIDTH, HEIGHT }, 1, &err) &&
               shaded_ground_of_plane(&ground, &scene.ground, &receiver, 1, &err) && shade_ground(&ground, &p, &receiver, NULL, &err) &&
               model_include_write(&include, NULL, out, &entity, &err) && passes_write(folder, &p, &err) &&
