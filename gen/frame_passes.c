@@ -88,39 +88,55 @@ static bool find_sunlit(struct shaded_ground *ground, const struct passes *p, co
     return !p->light->has_sun || sunlit_ground_find(ground, &in, err);
 }
 
+/* The entities that matter, as their passes name them. */
+struct cast_list { struct entity *entities; struct receiver *receivers; struct model_include *includes; size_t n; };
+
+static void cast_list_release(struct cast_list *list)
+{
+    free(list->entities);
+    free(list->receivers);
+    free(list->includes);
+}
+
+/* Their includes are written. Out: *list, the caller's, after a failure, too; receivers are borrowed from the frame */
+static bool list_cast(struct cast_list *list, struct frame *f, struct error *err)
+{
+    const struct frame_context *c = f->context;
+    size_t room = f->moment.n + 1;
+    *list = (struct cast_list){ calloc(room, sizeof *list->entities), calloc(room, sizeof *list->receivers), calloc(room, sizeof *list->includes), 0 };
+    bool ok = (list->entities && list->receivers && list->includes) || error_set(err, ERR_MEMORY, "no memory for a frame");
+    for (size_t i = 0; ok && i < f->moment.n; i++) {
+        if (!f->matters[i]) continue;
+        size_t model = f->moment.model_index[i], n = list->n++;
+        bool posed = f->moment.entities[i].model != f->stage->models[model];
+        list->entities[n] = f->moment.entities[i];
+        list->receivers[n] = f->receivers[i];
+        list->includes[n] = posed ? model_include_posed(f->name, &list->entities[n]) : model_include(model, &list->entities[n]);
+        ok = model_include_write(&list->includes[n], posed ? NULL : c->includes, c->out_folder, &list->entities[n], err);
+    }
+    return ok;
+}
+
 bool frame_write_passes(struct frame *f, const struct view *view, struct error *err)
 {
     const struct frame_context *c = f->context;
-    struct entity *entities = calloc(f->moment.n + 1, sizeof *entities);
-    struct receiver *receivers = calloc(f->moment.n + 1, sizeof *receivers);
-    struct model_include *includes = calloc(f->moment.n + 1, sizeof *includes);
-    size_t n = 0;
+    struct cast_list cast;
     struct pass_surroundings surroundings = { 0 };
     struct place_files files;
     struct shaded_ground ground = { 0 };
     struct static_cut around = { 0 }, shades = { 0 };
     struct sky_sight *sight = NULL, *past_entities = NULL;
-    bool ok = (entities && receivers && includes) || error_set(err, ERR_MEMORY, "no memory for a frame");
-    for (size_t i = 0; ok && i < f->moment.n; i++) {
-        if (!f->matters[i]) continue;
-        size_t model = f->moment.model_index[i];
-        bool posed = f->moment.entities[i].model != f->stage->models[model];
-        entities[n] = f->moment.entities[i];
-        receivers[n] = f->receivers[i];
-        includes[n] = posed ? model_include_posed(f->name, &entities[n]) : model_include(model, &entities[n]);
-        ok = model_include_write(&includes[n], posed ? NULL : c->includes, c->out_folder, &entities[n], err);
-        n++;
-    }
+    bool ok = list_cast(&cast, f, err);
     struct passes passes = {
         .scene = f->scene, .sky_map = c->sky_map, .light = c->light, .view = *view,
-        .world_from_camera = f->shot->world_from_camera, .entities = entities, .includes = includes, .entity_count = n,
+        .world_from_camera = f->shot->world_from_camera, .entities = cast.entities, .includes = cast.includes, .entity_count = cast.n,
         .ground = f->scene->ground, .receivers = &ground,
         .place_include = f->stage->mesh ? files.place : NULL, .shades_include = f->stage->mesh ? files.shades : NULL,
         .surroundings = &surroundings,
     };
     ok = ok &&
          (f->stage->mesh ? write_place(&files, &ground, &around, &shades, &passes.ground, f, err)
-                         : shaded_ground_of_plane(&ground, &f->scene->ground, receivers, n, err)) &&
+                         : shaded_ground_of_plane(&ground, &f->scene->ground, cast.receivers, cast.n, err)) &&
          open_sight(&past_entities, NULL, NULL, f, err) && frame_write_surroundings(&surroundings, f, past_entities, err) &&
          open_sight(&sight, &around, &surroundings, f, err) &&
          (!f->stage->mesh || write_shades(&files, &shades, f, &surroundings.sun_share, err)) && light_ground(&ground, sight, f, err) &&
@@ -131,8 +147,6 @@ bool frame_write_passes(struct frame *f, const struct view *view, struct error *
     shaded_ground_release(&ground);
     static_cut_release(&around);
     static_cut_release(&shades);
-    free(entities);
-    free(receivers);
-    free(includes);
+    cast_list_release(&cast);
     return ok;
 }
