@@ -137,12 +137,13 @@ export SIZE
 run "$staffage" run many.yaml -o whole
 "$staffage" run many.yaml -o killed -j 2 >log 2>&1 &
 pid=$!
-until [ "$(files killed exr)" -ge 2 ] || ! kill -0 $pid 2>/dev/null; do sleep 0.05; done
+until [ "$(files killed exr)" -ge 3 ] || ! kill -0 $pid 2>/dev/null; do sleep 0.05; done
 kill -KILL $pid
 wait $pid 2>/dev/null
+# Of each job the make that ends may take the picture back whose recipe it had not seen the end of.
 made=$(files killed exr)
 echo "# $made of 27 pictures; $(tail -n 1 log | tr '\r' ' ')"
-check "killed: it was in the middle" test "$made" -ge 2 -a "$made" -lt 27
+check "killed: it was in the middle" test "$made" -ge 1 -a "$made" -lt 27
 run "$staffage" run many.yaml -o killed -j 2
 check "killed: nothing goes on in its back" test "$(files killed exr)" = 27 -a $status = 0
 check "frames are finished one after the other, not all in the end" \
